@@ -1,0 +1,1 @@
+# `cmake --install`: library, headers, tool, CMake package and pkg-config file.
