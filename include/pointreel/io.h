@@ -40,13 +40,15 @@ Result<CloudFormat> guess_cloud_format(const std::filesystem::path& path);
 Result<PointCloud> read_cloud(const std::filesystem::path& path, std::optional<CloudFormat> format = {});
 
 // Writes to a temporary name beside `path` and renames it: no partial file is ever left under that name.
-// KITTI and nuScenes hold only intensity (and ring): a missing one is written as 0, other fields are left out.
+// KITTI and nuScenes hold only intensity (and ring): a missing one is written as 0, other fields are left
+// out.
 Result<void> write_cloud(const std::filesystem::path& path, const PointCloud& cloud, CloudFormat format,
                          CloudEncoding encoding = CloudEncoding::binary);
 
-// The cloud files that the user's arguments mean, in natural order within each argument (2.bin before 10.bin).
-// An argument is a file, a folder (its cloud files; or those of its velodyne/, velodyne_points/data/ or data/
-// subfolder when it has none itself), or a glob pattern. Error when one matches nothing.
+// The cloud files that the user's arguments mean, in natural order within each argument (2.bin
+// before 10.bin). An argument is a file, a folder (its cloud files; or those of its velodyne/,
+// velodyne_points/data/ or data/ subfolder when it has none itself), or a glob pattern. Error when one
+// matches nothing.
 Result<std::vector<std::filesystem::path>> expand_inputs(std::span<const std::string> arguments);
 
 // True when a sorts before b with digit runs compared as numbers.

@@ -39,26 +39,29 @@ Result<std::vector<TimedPose>> read_tum_poses(const std::filesystem::path& path)
 // CSV: t, ax, ay, az, wx, wy, wz[, vx, vy, vz] in s, m/s^2, rad/s, m/s; an optional header line; # comments.
 Result<std::vector<ImuSample>> read_imu_csv(const std::filesystem::path& path);
 Result<void> write_imu_csv(const std::filesystem::path& path, std::span<const ImuSample> samples);
-// KITTI oxts folder: timestamps.txt and data/*.txt (30 values a file). Times are seconds since the first sample.
-// vf, vl, vu become velocity_mps. The folder's sibling calib_imu_to_velo.txt, or one in a parent folder up to
-// two levels up, rotates the readings into the LiDAR's axes where it exists.
+// KITTI oxts folder: timestamps.txt and data/*.txt (30 values a file). Times are seconds since the first
+// sample. vf, vl, vu become velocity_mps. The folder's sibling calib_imu_to_velo.txt, or one in a parent
+// folder up to two levels up, rotates the readings into the LiDAR's axes where it exists.
 Result<std::vector<ImuSample>> read_kitti_oxts(const std::filesystem::path& folder);
 
 // --- IMU integration (the paper's first-order scheme) ---
 
 struct ImuIntegrationOptions {
   Eigen::Vector3d initial_velocity_mps = Eigen::Vector3d::Zero();  // used when samples carry no velocity
-  // Gravity and gyro bias: averaged over this lead-in where the IMU stands still (no rotation, |a| about 9.81);
-  // without such a lead-in gravity is taken from the mean acceleration when that is near 9.81, and no bias.
+  // Gravity and gyro bias: averaged over this lead-in where the IMU stands still (no rotation, |a|
+  // about 9.81); without such a lead-in gravity is taken from the mean acceleration when that is near 9.81,
+  // and no bias.
   double stationary_s = 0.5;
 };
 
-// Dead reckoning: v' = v + (a + a')/2 dt, dx = (v + v')/2 dt, the same for the angles (DESIGN 2.2), giving the
-// sensor's pose at every sample in the frame of the first. Error: invalid_argument when times do not increase.
+// Dead reckoning: v' = v + (a + a')/2 dt, dx = (v + v')/2 dt, the same for the angles (DESIGN 2.2), giving
+// the sensor's pose at every sample in the frame of the first. Error: invalid_argument when times do not
+// increase.
 Result<std::vector<TimedPose>> integrate_imu(std::span<const ImuSample> samples,
                                              const ImuIntegrationOptions& options = {});
 
-// Pose at a time: linear in translation, slerp in rotation, clamped to the ends. `track` is sorted, not empty.
+// Pose at a time: linear in translation, slerp in rotation, clamped to the ends. `track` is sorted, not
+// empty.
 Pose interpolate_pose(std::span<const TimedPose> track, double time_s);
 
 }  // namespace pointreel

@@ -1,4 +1,5 @@
-// A spinning LiDAR driven through a procedural street: sweeps, true poses, IMU. For tests, demos and benchmarks.
+// A spinning LiDAR driven through a procedural street: sweeps, true poses, IMU. For tests, demos and
+// benchmarks.
 #pragma once
 
 #include <cstdint>
@@ -17,17 +18,17 @@ Result<SensorKind> parse_sensor_kind(std::string_view name);  // "hdl-64e", "vlp
 
 struct SimulatorOptions {
   SensorKind sensor = SensorKind::hdl_64e;
-  std::uint64_t seed = 1;            // the same seed gives the same bytes
-  double sweep_rate_hz = 10;         // sweeps per second
-  double cruise_speed_mps = 8;       // reached after pulling away from rest
-  double range_noise_m = 0.008;      // standard deviation on surfaces
-  double drop_out = 0.02;            // share of shots on surfaces that give no return
+  std::uint64_t seed = 1;        // the same seed gives the same bytes
+  double sweep_rate_hz = 10;     // sweeps per second
+  double cruise_speed_mps = 8;   // reached after pulling away from rest
+  double range_noise_m = 0.008;  // standard deviation on surfaces
+  double drop_out = 0.02;        // share of shots on surfaces that give no return
 };
 
 struct SimulatedSweep {
-  PointCloud cloud;        // KITTI order: rows top to bottom, each by azimuth 0 to 360 deg; field "intensity"
-  double time_s = 0;       // start of the sweep; each column is measured at its own time (not compensated)
-  Pose T_world_sensor;     // true pose at time_s
+  PointCloud cloud;     // KITTI order: rows top to bottom, each by azimuth 0 to 360 deg; field "intensity"
+  double time_s = 0;    // start of the sweep; each column is measured at its own time (not compensated)
+  Pose T_world_sensor;  // true pose at time_s
 };
 
 class Simulator {
@@ -38,8 +39,8 @@ class Simulator {
   Simulator& operator=(Simulator&&) noexcept;
 
   SimulatedSweep next_sweep();
-  // 100 Hz with white noise and constant bias, gravity included, from 1 s at rest before the first sweep to the
-  // end of the last sweep made so far.
+  // 100 Hz with white noise and constant bias, gravity included, from 1 s at rest before the first sweep to
+  // the end of the last sweep made so far.
   std::vector<ImuSample> imu() const;
 
  private:

@@ -5,7 +5,9 @@
 
 namespace pointreel {
 
-bool is_finite(const Point3f& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+bool is_finite(const Point3f& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
 
 std::size_t Field::size() const {
   return std::visit([](const auto& v) { return v.size(); }, values);

@@ -1,0 +1,153 @@
+// Encoder and Decoder: sweeps to packets and back, one packet per sweep.
+//
+//   auto encoder = Encoder::create(options);
+//   for (each sweep) for (const Packet& packet : *encoder->encode(cloud, T_world_sensor)) send(packet.bytes);
+//   for (const Packet& packet : *encoder->finish()) send(packet.bytes);
+//
+// Files are written and read by ReelWriter and ReelReader (reel.h). Objects are independent; one object must
+// not be used by two threads at once.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "pointreel/motion.h"
+#include "pointreel/point_cloud.h"
+#include "pointreel/result.h"
+
+namespace pointreel {
+
+enum class Method : std::uint8_t {
+  planes = 1,  // Feng, Liu, Zhu: Real-Time Spatio-Temporal LiDAR Point Cloud Compression, IROS 2020
+};
+
+// How the ranges of cells that lie on no plane are kept (the paper's residual map).
+enum class ResidualMode : std::uint8_t {
+  stepped,   // quantised, predicted, entropy coded
+  raw_float  // float32 as in the paper, entropy coded byte by byte
+};
+
+// Method `planes`. A sweep becomes a range image on a uniform angular grid; of several points in a cell the
+// nearest is kept, at the cell's centre angles. Geometry only: fields are not carried.
+struct PlanesOptions {
+  double threshold_m = 0.1;  // range error of a cell on a plane at most; 0.001 to 10
+  double azimuth_step_rad = 0.18 * 3.14159265358979323846 / 180;    // 0.0003 to 0.1
+  double elevation_step_rad = 0.45 * 3.14159265358979323846 / 180;  // 0.0003 to 0.1
+  int tile_size = 4;                                                // cells a side, 2 to 16
+  int group = 5;  // sweeps per group, 1 (every sweep by itself) to 255; the middle one is the key frame
+  ResidualMode residual_mode = ResidualMode::stepped;
+  double residual_step_m = 0;  // 0: twice the threshold, so that unfit cells keep the same range error
+};
+
+// What the caller of an Encoder chooses.
+struct EncoderOptions {
+  Method method = Method::planes;
+  PlanesOptions planes;
+};
+
+// What a decoder must know before the first packet.
+struct StreamHeader {
+  Method method = Method::planes;
+  PlanesOptions planes;  // with residual_step_m resolved
+
+  // Largest range error of a kept point: the threshold, or half the residual step if that is more.
+  double range_bound_m() const;
+};
+
+// Settings that change no byte of any stream.
+struct Runtime {
+  int threads = 0;  // 0: one per processor
+};
+
+enum class FrameKind : std::uint8_t {
+  key = 0,        // decodes by itself
+  predicted = 1,  // needs its reference frame
+};
+
+// Where the bits of a packet and the cells of its range image went (encoder only, not in the stream).
+struct FrameStatistics {
+  double occupancy_bits = 0;
+  double plane_bits = 0;
+  double residual_bits = 0;
+  std::uint32_t spatial_cells = 0;   // on planes of this frame
+  std::uint32_t temporal_cells = 0;  // on planes of the key frame with a new distance
+  std::uint32_t unfit_cells = 0;     // in the residual map
+  std::uint32_t runs = 0;
+};
+
+struct Packet {
+  std::uint32_t frame = 0;  // number of the sweep, from 0
+  std::uint32_t group = 0;
+  std::uint32_t reference_frame = 0;  // = frame for a key frame
+  FrameKind kind = FrameKind::key;
+  std::uint32_t points_in = 0;   // points of the input sweep, all of them
+  std::uint32_t points_out = 0;  // points that decoding gives back
+  std::uint32_t non_finite = 0;  // input points with a NaN or infinite coordinate, which no method keeps
+  std::vector<std::uint8_t> payload;
+  FrameStatistics statistics;
+};
+
+// A packet as it is sent or stored: self-delimiting, with a checksum (docs/FORMAT.md).
+std::vector<std::uint8_t> serialize(const Packet& packet);
+std::vector<std::uint8_t> serialize(const StreamHeader& header);
+// Exactly one packet. Errors: truncated, corrupt (message names the offset within `bytes`).
+Result<Packet> parse_packet(std::span<const std::uint8_t> bytes);
+Result<StreamHeader> parse_stream_header(std::span<const std::uint8_t> bytes);
+
+class Encoder {
+ public:
+  // Error: invalid_argument naming the option.
+  static Result<Encoder> create(const EncoderOptions& options, const Runtime& runtime = {});
+  Encoder(Encoder&&) noexcept;
+  Encoder& operator=(Encoder&&) noexcept;
+  ~Encoder();
+
+  const StreamHeader& header() const;
+
+  // Takes the next sweep and its pose in any fixed frame (omit it for all sweeps when motion is unknown:
+  // sweeps are then compared where they stand). Returns the packets that are now complete: for `planes` none
+  // until a group is, then all of its packets, key frame first.
+  Result<std::vector<Packet>> encode(PointCloud sweep, const std::optional<Pose>& T_world_sensor = {});
+  // Ends the stream: packets of the last, maybe shorter group.
+  Result<std::vector<Packet>> finish();
+
+  class Implementation;
+
+ private:
+  explicit Encoder(std::unique_ptr<Implementation> implementation);
+  std::unique_ptr<Implementation> implementation_;
+};
+
+struct DecodedSweep {
+  std::uint32_t frame = 0;
+  PointCloud cloud;                      // the sweep's own sensor coordinates
+  Pose T_key_sensor = Pose::Identity();  // the motion that was undone (predicted frames)
+};
+
+class Decoder {
+ public:
+  static Result<Decoder> create(const StreamHeader& header, const Runtime& runtime = {});
+  Decoder(Decoder&&) noexcept;
+  Decoder& operator=(Decoder&&) noexcept;
+  ~Decoder();
+
+  // Packets in stream order; several at once (a group, say) are decoded in parallel. One result per packet: a
+  // damaged packet, or one whose reference frame was not decoded, is an Error and does not harm the others.
+  std::vector<Result<DecodedSweep>> decode(std::span<const Packet> packets);
+
+  class Implementation;
+
+ private:
+  explicit Decoder(std::unique_ptr<Implementation> implementation);
+  std::unique_ptr<Implementation> implementation_;
+};
+
+// Index into decoded.cloud of each original point's own decoded point; -1 for points that the method gave up
+// (another point of the cell was nearer, or not finite). `original` must be the sweep that was encoded.
+Result<std::vector<std::int64_t>> pair_points(const StreamHeader& header, const PointCloud& original,
+                                              const DecodedSweep& decoded);
+
+}  // namespace pointreel

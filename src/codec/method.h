@@ -1,0 +1,33 @@
+// What a compression method implements behind Encoder and Decoder.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "pointreel/codec.h"
+
+namespace pointreel {
+
+class Encoder::Implementation {
+ public:
+  virtual ~Implementation() = default;
+  virtual const StreamHeader& header() const = 0;
+  virtual Result<std::vector<Packet>> encode(PointCloud sweep, const std::optional<Pose>& T_world_sensor) = 0;
+  virtual Result<std::vector<Packet>> finish() = 0;
+};
+
+class Decoder::Implementation {
+ public:
+  virtual ~Implementation() = default;
+  virtual std::vector<Result<DecodedSweep>> decode(std::span<const Packet> packets) = 0;
+};
+
+// codec/planes_encoder.cpp, codec/planes_decoder.cpp
+Result<std::unique_ptr<Encoder::Implementation>> make_planes_encoder(const EncoderOptions& options,
+                                                                     const Runtime& runtime);
+Result<std::unique_ptr<Decoder::Implementation>> make_planes_decoder(const StreamHeader& header,
+                                                                     const Runtime& runtime);
+
+}  // namespace pointreel

@@ -1,0 +1,126 @@
+// Method `planes`, the way back: packets -> key frame -> predicted frames -> points in each sweep's own
+// coordinates.
+#include <algorithm>
+#include <string>
+
+#include "base/parallel.h"
+#include "codec/method.h"
+#include "codec/relative_pose.h"
+#include "planes/frame_coding.h"
+#include "planes/projection.h"
+
+namespace pointreel {
+namespace {
+
+class PlanesDecoder final : public Decoder::Implementation {
+ public:
+  PlanesDecoder(const StreamHeader& header, AngularGrid grid, int threads)
+      : grid_(std::move(grid)), settings_(frame_settings(header.planes)), threads_(threads) {}
+
+  std::vector<Result<DecodedSweep>> decode(std::span<const Packet> packets) override {
+    std::vector<Result<DecodedSweep>> sweeps(packets.size(), DecodedSweep{});
+    // Between two key frames all predicted frames need the same reference: one parallel batch.
+    for (std::size_t begin = 0; begin < packets.size();) {
+      if (packets[begin].kind == FrameKind::key) {
+        sweeps[begin] = decode_key(packets[begin]);
+        ++begin;
+      }
+      std::size_t end = begin;
+      while (end < packets.size() && packets[end].kind == FrameKind::predicted) ++end;
+      parallel_for(end - begin, threads_,
+                   [&](std::size_t i) { sweeps[begin + i] = decode_predicted(packets[begin + i]); });
+      begin = end;
+    }
+    return sweeps;
+  }
+
+ private:
+  Result<DecodedSweep> decode_key(const Packet& packet) {
+    has_key_ = false;
+    auto frame = decode_frame(grid_, packet.payload, settings_, nullptr);
+    if (!frame) return in_frame(packet, frame.error());
+    key_ = *std::move(frame);
+    key_frame_ = packet.frame;
+    has_key_ = true;
+    return sweep_of(packet, key_.image, Pose::Identity());
+  }
+
+  Result<DecodedSweep> decode_predicted(const Packet& packet) const {
+    if (!has_key_ || key_frame_ != packet.reference_frame) {
+      return in_frame(packet,
+                      {ErrorCode::corrupt, "its reference frame " + std::to_string(packet.reference_frame) +
+                                               " was not decoded before it"});
+    }
+    ByteReader reader(packet.payload);
+    const auto T_key_sensor = get_relative_pose(reader);
+    if (!T_key_sensor) return in_frame(packet, T_key_sensor.error());
+    const auto frame = decode_frame(grid_, reader.rest(), settings_, &key_);
+    if (!frame) return in_frame(packet, frame.error());
+    return sweep_of(packet, frame->image, *T_key_sensor);
+  }
+
+  Result<DecodedSweep> sweep_of(const Packet& packet, const RangeImage& image,
+                                const Pose& T_key_sensor) const {
+    DecodedSweep sweep{packet.frame, cloud_of(grid_, image, T_key_sensor), T_key_sensor};
+    if (sweep.cloud.size() != packet.points_out) {
+      return in_frame(packet,
+                      {ErrorCode::corrupt, "it decodes to " + std::to_string(sweep.cloud.size()) +
+                                               " points instead of " + std::to_string(packet.points_out)});
+    }
+    return sweep;
+  }
+
+  static Error in_frame(const Packet& packet, const Error& error) {
+    return {error.code, "frame " + std::to_string(packet.frame) + ": " + error.message};
+  }
+
+  AngularGrid grid_;
+  FrameSettings settings_;
+  int threads_;
+  KeyFrame key_;
+  std::uint32_t key_frame_ = 0;
+  bool has_key_ = false;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Decoder::Implementation>> make_planes_decoder(const StreamHeader& header,
+                                                                     const Runtime& runtime) {
+  auto grid = AngularGrid::create(header.planes.azimuth_step_rad, header.planes.elevation_step_rad);
+  if (!grid) return grid.error();
+  return std::unique_ptr<Decoder::Implementation>(
+      std::make_unique<PlanesDecoder>(header, *std::move(grid), resolve_threads(runtime.threads)));
+}
+
+// The encoder's projection repeated: decoded points are the occupied cells in raster order, and a cell
+// belongs to the first of its nearest points.
+Result<std::vector<std::int64_t>> pair_points(const StreamHeader& header, const PointCloud& original,
+                                              const DecodedSweep& decoded) {
+  const auto grid = AngularGrid::create(header.planes.azimuth_step_rad, header.planes.elevation_step_rad);
+  if (!grid) return grid.error();
+  const auto projected = project_points(*grid, original, decoded.T_key_sensor);
+  const auto image = range_image_of(*grid, projected, header.planes.tile_size);
+  if (!image) return image.error();
+
+  std::vector<std::int64_t> point_of_cell(image->range_m.size(), -1);
+  std::int64_t next = 0;
+  for (std::size_t cell = 0; cell < point_of_cell.size(); ++cell) {
+    if (image->range_m[cell] > 0) point_of_cell[cell] = next++;
+  }
+  if (next != static_cast<std::int64_t>(decoded.cloud.size())) {
+    return Error{ErrorCode::invalid_argument, "frame " + std::to_string(decoded.frame) +
+                                                  ": the original fills " + std::to_string(next) +
+                                                  " cells but " + std::to_string(decoded.cloud.size()) +
+                                                  " points were decoded: not the same sweep"};
+  }
+  std::vector<std::int64_t> pairs(original.size(), -1);
+  for (std::size_t i = 0; i < projected.size(); ++i) {
+    const ProjectedPoint& point = projected[i];
+    if (!(point.range_m > 0)) continue;
+    const std::size_t cell = image->index(point.cell.row - image->first_row, point.cell.column);
+    if (point.range_m == image->range_m[cell]) pairs[i] = std::exchange(point_of_cell[cell], -1);
+  }
+  return pairs;
+}
+
+}  // namespace pointreel

@@ -1,0 +1,41 @@
+#include "codec/relative_pose.h"
+
+#include <cmath>
+
+namespace pointreel {
+
+void put_relative_pose(ByteWriter& writer, const Pose& T_key_sensor) {
+  Eigen::Quaterniond q(T_key_sensor.linear());
+  q.normalize();
+  const double sign = q.w() < 0 ? -1 : 1;
+  for (const double v : {sign * q.x(), sign * q.y(), sign * q.z()}) writer.put(static_cast<float>(v));
+  for (int i = 0; i < 3; ++i) writer.put(static_cast<float>(T_key_sensor.translation()(i)));
+}
+
+Result<Pose> get_relative_pose(ByteReader& reader) {
+  double v[6];
+  for (double& value : v) value = reader.get<float>();
+  if (!reader.ok()) return Error{ErrorCode::truncated, "the frame's payload ends within its pose"};
+  const double x = v[0], y = v[1], z = v[2];
+  const double w2 = 1.0 - (x * x + y * y + z * z);
+  // Rounding to float can leave a half turn at most 1e-6 outside.
+  if (!(w2 > -1e-6) || !std::isfinite(v[3]) || !std::isfinite(v[4]) || !std::isfinite(v[5])) {
+    return Error{ErrorCode::corrupt, "the frame's pose is not a rigid motion"};
+  }
+  const double w = w2 > 0 ? std::sqrt(w2) : 0.0;
+  Pose pose = Pose::Identity();
+  pose.linear() << 1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y),  //
+      2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x),               //
+      2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y);
+  pose.translation() << v[3], v[4], v[5];
+  return pose;
+}
+
+Result<Pose> quantised(const Pose& T_key_sensor) {
+  ByteWriter writer;
+  put_relative_pose(writer, T_key_sensor);
+  ByteReader reader(writer.bytes());
+  return get_relative_pose(reader);
+}
+
+}  // namespace pointreel

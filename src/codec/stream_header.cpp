@@ -1,0 +1,44 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/trigonometry.h"
+#include "codec/wire.h"
+#include "planes/angular_grid.h"
+
+namespace pointreel {
+
+double StreamHeader::range_bound_m() const {
+  return planes.residual_mode == ResidualMode::raw_float
+             ? planes.threshold_m
+             : std::max(planes.threshold_m, planes.residual_step_m / 2);
+}
+
+Result<void> validate(const StreamHeader& header) {
+  const auto out_of_range = [](const char* option, double value, const char* range) {
+    return Error{ErrorCode::invalid_argument,
+                 std::string(option) + " must lie in " + range + ", got " + std::to_string(value)};
+  };
+  const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
+  const PlanesOptions& planes = header.planes;
+  if (header.method != Method::planes) {
+    return Error{ErrorCode::unsupported,
+                 "method " + std::to_string(static_cast<int>(header.method)) + " is not known"};
+  }
+  if (!within(planes.threshold_m, 0.001, 10))
+    return out_of_range("threshold", planes.threshold_m, "0.001 to 10 m");
+  if (!within(planes.tile_size, 2, 16)) return out_of_range("tile", planes.tile_size, "2 to 16 cells");
+  if (!within(planes.group, 1, 255)) return out_of_range("group", planes.group, "1 to 255 sweeps");
+  if (planes.residual_mode == ResidualMode::stepped) {
+    if (!within(planes.residual_step_m, 0.001, 20)) {
+      return out_of_range("residual-step", planes.residual_step_m, "0.001 to 20 m");
+    }
+  } else if (planes.residual_mode != ResidualMode::raw_float || planes.residual_step_m != 0) {
+    return Error{ErrorCode::invalid_argument, "residual-step: unknown mode or a step with raw ranges"};
+  }
+  const auto grid = AngularGrid::create(planes.azimuth_step_rad, planes.elevation_step_rad);
+  if (!grid) return grid.error();
+  return {};
+}
+
+}  // namespace pointreel

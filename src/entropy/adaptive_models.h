@@ -1,0 +1,145 @@
+// Adaptive binary models on top of the range coder, and integers made of binary decisions.
+//
+// BitEncoder and BitDecoder share one interface, `code(model, bit) -> bit`: the decoder ignores the bit it is
+// given and returns the one it reads. Code written once as a template over the coder is its own mirror.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "entropy/range_coder.h"
+
+namespace pointreel {
+
+// P(1) as the mean of a fast and a slow exponential average; both start fast (rate 1/n) and then settle.
+class AdaptiveBit {
+ public:
+  Probability16 p_one() const {
+    const std::uint32_t p = (static_cast<std::uint32_t>(fast_) + slow_) / 2;
+    return p < kMinProbability ? kMinProbability
+                               : (p > 65536 - kMinProbability ? 65536 - kMinProbability : p);
+  }
+
+  void update(bool bit) {
+    if (count_ < kSlowShift) ++count_;
+    const int start_shift = kStartShift[count_];
+    fast_ = moved(fast_, bit, start_shift < kFastShift ? start_shift : kFastShift);
+    slow_ = moved(slow_, bit, start_shift);
+  }
+
+ private:
+  static constexpr int kFastShift = 4;
+  static constexpr int kSlowShift = 7;
+  // Shift used for the n-th update: 1/2, 1/4, 1/4, 1/8 ... until the slow rate is reached.
+  static constexpr std::array<std::uint8_t, kSlowShift + 1> kStartShift = {1, 1, 2, 2, 3, 4, 5, 7};
+
+  static std::uint16_t moved(std::uint16_t p, bool bit, int shift) {
+    return static_cast<std::uint16_t>(bit ? p + ((65535 - p) >> shift) : p - (p >> shift));
+  }
+
+  std::uint16_t fast_ = 32768;
+  std::uint16_t slow_ = 32768;
+  std::uint8_t count_ = 0;
+};
+
+class BitEncoder {
+ public:
+  static constexpr bool kDecodes = false;
+
+  bool code(AdaptiveBit& model, bool bit) {
+    coder_.encode(bit, model.p_one());
+    model.update(bit);
+    return bit;
+  }
+  bool code_even(bool bit) {
+    coder_.encode(bit, 32768);
+    return bit;
+  }
+  std::vector<std::uint8_t> finish() { return coder_.finish(); }
+  std::size_t size() const { return coder_.size(); }
+
+ private:
+  RangeEncoder coder_;
+};
+
+class BitDecoder {
+ public:
+  static constexpr bool kDecodes = true;
+
+  explicit BitDecoder(std::span<const std::uint8_t> bytes) : coder_(bytes) {}
+  bool code(AdaptiveBit& model, bool /*ignored*/ = false) {
+    const bool bit = coder_.decode(model.p_one());
+    model.update(bit);
+    return bit;
+  }
+  bool code_even(bool /*ignored*/ = false) { return coder_.decode(32768); }
+  bool overran() const { return coder_.overran(); }
+
+ private:
+  RangeDecoder coder_;
+};
+
+// A signed integer, small ones likely: zero?, sign, then the magnitude in unary with a model per step, and
+// beyond kUnarySteps an Exp-Golomb code of the rest.
+class AdaptiveInteger {
+ public:
+  template <class Coder>
+  std::int32_t code(Coder& coder, std::int32_t value) {
+    if (!coder.code(nonzero_, value != 0)) return 0;
+    const bool negative = coder.code(negative_, value < 0);
+    const std::uint32_t magnitude =
+        negative ? 0u - static_cast<std::uint32_t>(value) : static_cast<std::uint32_t>(value);
+    std::uint32_t coded = 1;
+    for (int step = 0; step < kUnarySteps; ++step, ++coded) {
+      if (!coder.code(more_[step], magnitude > coded)) return signed_value(coded, negative);
+    }
+    coded += code_exp_golomb(coder, magnitude - coded);
+    return signed_value(coded, negative);
+  }
+
+ private:
+  static constexpr int kUnarySteps = 12;
+  static constexpr int kMaxExponent = 30;  // the value stays within int32 whatever the bytes say
+
+  static std::int32_t signed_value(std::uint32_t magnitude, bool negative) {
+    return negative ? -static_cast<std::int32_t>(magnitude) : static_cast<std::int32_t>(magnitude);
+  }
+
+  template <class Coder>
+  std::uint32_t code_exp_golomb(Coder& coder, std::uint32_t value) {
+    std::uint32_t exponent = 0;
+    while (exponent < kMaxExponent - 1 &&
+           coder.code(exponent_[exponent], (static_cast<std::uint64_t>(value) + 1) >> (exponent + 1) != 0)) {
+      ++exponent;
+    }
+    std::uint32_t mantissa = 1;
+    for (std::uint32_t bit = exponent; bit-- > 0;) {
+      mantissa = (mantissa << 1) | (coder.code_even(((value + 1) >> bit) & 1u) ? 1u : 0u);
+    }
+    return mantissa - 1;
+  }
+
+  AdaptiveBit nonzero_;
+  AdaptiveBit negative_;
+  std::array<AdaptiveBit, kUnarySteps> more_;
+  std::array<AdaptiveBit, kMaxExponent> exponent_;
+};
+
+// One byte by a binary tree of models: an adaptive order-0 code, the part Huffman plays in the paper.
+class AdaptiveByte {
+ public:
+  template <class Coder>
+  std::uint8_t code(Coder& coder, std::uint8_t value) {
+    std::uint32_t node = 1;
+    for (int bit = 7; bit >= 0; --bit)
+      node = (node << 1) | (coder.code(tree_[node], (value >> bit) & 1) ? 1u : 0u);
+    return static_cast<std::uint8_t>(node);
+  }
+
+ private:
+  std::array<AdaptiveBit, 256> tree_;
+};
+
+}  // namespace pointreel

@@ -1,0 +1,96 @@
+// Binary range coder: turns (bit, probability) pairs into bytes and back, exactly, on every machine.
+//
+// Carry-propagating coder with 32-bit range (Martin 1979, in the form Pavlov's LZMA made common).
+// Probabilities are 16-bit integers, so nothing here depends on floating point.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace pointreel {
+
+// P(bit = 1) in units of 1/65536; coders accept [kMinProbability, 65536 - kMinProbability].
+using Probability16 = std::uint32_t;
+inline constexpr int kProbabilityBits = 16;
+inline constexpr Probability16 kMinProbability = 32;
+
+class RangeEncoder {
+ public:
+  void encode(bool bit, Probability16 p_one) {
+    const std::uint32_t bound = (range_ >> kProbabilityBits) * p_one;
+    if (bit) {
+      range_ = bound;
+    } else {
+      low_ += bound;
+      range_ -= bound;
+    }
+    while (range_ < kTop) {
+      range_ <<= 8;
+      shift_low();
+    }
+  }
+
+  // Ends the stream; the encoder is spent afterwards. Trailing zero bytes are left out: the decoder reads
+  // zeros past the end.
+  std::vector<std::uint8_t> finish();
+
+  // Bytes so far, for statistics by part (right to within the coder's five bytes of look-ahead).
+  std::size_t size() const { return bytes_.size() + pending_; }
+
+ private:
+  static constexpr std::uint32_t kTop = 1u << 24;
+  void shift_low();
+
+  std::vector<std::uint8_t> bytes_;
+  std::uint64_t low_ = 0;
+  std::uint32_t range_ = 0xFFFFFFFFu;
+  std::uint8_t cache_ = 0;
+  std::size_t pending_ = 1;  // cache byte plus a run of 0xFF that a carry may still change
+};
+
+class RangeDecoder {
+ public:
+  explicit RangeDecoder(std::span<const std::uint8_t> bytes) : bytes_(bytes) {
+    for (int i = 0; i < 5; ++i) code_ = (code_ << 8) | next_byte();
+  }
+
+  bool decode(Probability16 p_one) {
+    const std::uint32_t bound = (range_ >> kProbabilityBits) * p_one;
+    bool bit;
+    if (code_ < bound) {
+      range_ = bound;
+      bit = true;
+    } else {
+      code_ -= bound;
+      range_ -= bound;
+      bit = false;
+    }
+    while (range_ < kTop) {
+      range_ <<= 8;
+      code_ = (code_ << 8) | next_byte();
+    }
+    return bit;
+  }
+
+  // True when more bytes were asked for than any encoder's stream of this length can need: the input is
+  // damaged.
+  bool overran() const { return position_ > bytes_.size() + kSlack; }
+
+ private:
+  static constexpr std::uint32_t kTop = 1u << 24;
+  static constexpr std::size_t kSlack = 64;  // dropped trailing zeros; longer runs are put back by finish()
+
+  std::uint32_t next_byte() {
+    const std::size_t i = position_++;
+    return i < bytes_.size() ? bytes_[i] : 0u;
+  }
+
+  std::span<const std::uint8_t> bytes_;
+  std::size_t position_ = 0;
+  std::uint32_t range_ = 0xFFFFFFFFu;
+  std::uint32_t code_ = 0;
+};
+
+}  // namespace pointreel

@@ -1,0 +1,50 @@
+#include "planes/angular_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/trigonometry.h"
+
+namespace pointreel {
+
+Result<AngularGrid> AngularGrid::create(double azimuth_step_rad, double elevation_step_rad) {
+  for (const double step : {azimuth_step_rad, elevation_step_rad}) {
+    if (!(step >= kMinStep_rad && step <= kMaxStep_rad)) {
+      return Error{ErrorCode::invalid_argument,
+                   "azimuth and elevation steps must lie between " +
+                       std::to_string(radians_to_degrees(kMinStep_rad)) + " and " +
+                       std::to_string(radians_to_degrees(kMaxStep_rad)) + " deg, got " +
+                       std::to_string(radians_to_degrees(step)) + " deg"};
+    }
+  }
+  return AngularGrid(azimuth_step_rad, elevation_step_rad);
+}
+
+AngularGrid::AngularGrid(double azimuth_step_rad, double elevation_step_rad)
+    : azimuth_step_rad_(azimuth_step_rad),
+      elevation_step_rad_(elevation_step_rad),
+      // A step that divides the circle up to rounding must not get a sliver of a column more.
+      rows_(static_cast<int>(std::ceil(kPi / elevation_step_rad - 1e-6))),
+      columns_(static_cast<int>(std::ceil(2 * kPi / azimuth_step_rad - 1e-6))) {
+  for (int column = 0; column < columns_; ++column) {
+    const SinCos azimuth = sin_cos((column + 0.5) * azimuth_step_rad_);
+    cos_azimuth_.push_back(static_cast<float>(azimuth.cos));
+    sin_azimuth_.push_back(static_cast<float>(azimuth.sin));
+  }
+  for (int row = 0; row < rows_ + kSpareRows; ++row) {
+    const SinCos elevation = sin_cos(kPi / 2 - (row + 0.5) * elevation_step_rad_);
+    cos_elevation_.push_back(static_cast<float>(elevation.cos));
+    sin_elevation_.push_back(static_cast<float>(elevation.sin));
+  }
+}
+
+GridCell AngularGrid::cell_of(double x, double y, double z) const {
+  const double azimuth = fast_atan2(y, x);
+  const double from_zenith = fast_atan2(std::sqrt(x * x + y * y), z);
+  const double turned = azimuth < 0 ? azimuth + 2 * kPi : azimuth;
+  return {std::clamp(static_cast<int>(from_zenith / elevation_step_rad_), 0, rows_ - 1),
+          std::clamp(static_cast<int>(turned / azimuth_step_rad_), 0, columns_ - 1)};
+}
+
+}  // namespace pointreel

@@ -1,0 +1,175 @@
+#include "planes/frame_coding.h"
+
+#include <algorithm>
+#include <string>
+
+#include "base/bytes.h"
+#include "base/parallel.h"
+#include "planes/occupancy_coding.h"
+#include "planes/projection.h"
+#include "planes/residual_coding.h"
+#include "planes/temporal.h"
+
+namespace pointreel {
+namespace {
+
+// Anchor ranges in steps of half the threshold: finer steps cost more bits than the longer runs save, coarser
+// ones break too many runs (measured; docs/PLANES.md).
+constexpr double kPlaneStepPerThreshold = 0.5;
+
+const std::int32_t* key_marks(const RangeImage& image, const TileLayout& layout, int tile_row,
+                              const KeyFrame& key) {
+  const int key_tile_row = tile_row + (image.first_row - key.image.first_row) / layout.tile_size;
+  if (key_tile_row < 0 || key_tile_row >= key.planes.layout.tile_rows) return nullptr;
+  return &key.planes.run_of_tile[key.planes.layout.index(key_tile_row, 0)];
+}
+
+// Temporal, then spatial pass over one row of tiles; runs from left to right.
+std::vector<PlaneRun> find_runs(const AngularGrid& grid, const RangeImage& image, const TileLayout& layout,
+                                int tile_row, const PlaneTolerance& tolerance, const KeyFrame* key) {
+  std::vector<std::int32_t> marks(static_cast<std::size_t>(layout.tile_columns));
+  for (int tile = 0; tile < layout.tile_columns; ++tile) {
+    marks[tile] = tile_occupied(image, layout, tile_row, tile) ? kUnfitTile : kEmptyTile;
+  }
+  std::vector<PlaneRun> runs;
+  if (const std::int32_t* marks_of_key =
+          key != nullptr ? key_marks(image, layout, tile_row, *key) : nullptr) {
+    encode_tile_row_temporally(grid, image, layout, tile_row, marks.data(), tolerance, key->planes.runs,
+                               marks_of_key, runs);
+    for (const PlaneRun& run : runs)
+      std::fill(marks.begin() + run.first_tile, marks.begin() + run.end_tile, 0);
+  }
+  encode_tile_row_spatially(grid, image, layout, tile_row, marks.data(), tolerance, runs);
+  std::sort(runs.begin(), runs.end(),
+            [](const PlaneRun& a, const PlaneRun& b) { return a.first_tile < b.first_tile; });
+  return runs;
+}
+
+PlaneMap map_planes(const AngularGrid& grid, const RangeImage& image, const FrameSettings& settings,
+                    const KeyFrame* key, int threads) {
+  PlaneMap map;
+  map.layout = TileLayout(image, settings.tile_size);
+  map.run_of_tile.assign(map.layout.count(), kUnfitTile);
+  std::vector<std::vector<PlaneRun>> runs_by_row(static_cast<std::size_t>(map.layout.tile_rows));
+  parallel_for(runs_by_row.size(), threads, [&](std::size_t tile_row) {
+    runs_by_row[tile_row] =
+        find_runs(grid, image, map.layout, static_cast<int>(tile_row), settings.tolerance, key);
+  });
+  for (const auto& runs : runs_by_row) {
+    for (const PlaneRun& run : runs) {
+      const auto row_begin =
+          map.run_of_tile.begin() + static_cast<std::ptrdiff_t>(map.layout.index(run.tile_row, 0));
+      std::fill(row_begin + run.first_tile, row_begin + run.end_tile,
+                static_cast<std::int32_t>(map.runs.size()));
+      map.runs.push_back(run);
+    }
+  }
+  return map;
+}
+
+// Ranges of all plane cells; the others stay 0. Returns false when a plane is behind one of its cells.
+bool render_planes(const AngularGrid& grid, const RangeImage& occupancy, const PlaneMap& map,
+                   RangeImage& decoded) {
+  decoded = occupancy;
+  std::fill(decoded.range_m.begin(), decoded.range_m.end(), 0.0f);
+  for (const PlaneRun& run : map.runs) {
+    const bool met = all_cells(
+        occupancy, map.layout, run.tile_row, run.first_tile, run.end_tile, [&](int row, int column, float) {
+          const float range_m = plane_range(grid, run.plane, occupancy.first_row + row, column);
+          decoded.at(row, column) = range_m;
+          return range_m > 0 && range_m <= 2 * static_cast<float>(kFarthestPoint_m);
+        });
+    if (!met) return false;
+  }
+  return true;
+}
+
+FrameStatistics count_cells(const RangeImage& image, const PlaneMap& map) {
+  FrameStatistics counts;
+  counts.runs = static_cast<std::uint32_t>(map.runs.size());
+  std::uint32_t occupied = 0;
+  for (const float range_m : image.range_m) occupied += range_m > 0;
+  for (const PlaneRun& run : map.runs) {
+    auto& count = run.kind == RunKind::spatial ? counts.spatial_cells : counts.temporal_cells;
+    all_cells(image, map.layout, run.tile_row, run.first_tile, run.end_tile,
+              [&](int, int, float) { return ++count; });
+  }
+  counts.unfit_cells = occupied - counts.spatial_cells - counts.temporal_cells;
+  return counts;
+}
+
+}  // namespace
+
+FrameSettings frame_settings(const PlanesOptions& options) {
+  FrameSettings settings;
+  settings.tile_size = options.tile_size;
+  settings.tolerance.threshold_m = static_cast<float>(options.threshold_m);
+  settings.tolerance.plane_step_m = options.threshold_m * kPlaneStepPerThreshold;
+  settings.residual_step_m = options.residual_mode == ResidualMode::raw_float ? 0 : options.residual_step_m;
+  return settings;
+}
+
+CodedFrame encode_frame(const AngularGrid& grid, const RangeImage& image, const FrameSettings& settings,
+                        const KeyFrame* key, int threads) {
+  CodedFrame frame;
+  KeyFrame& decoded = frame.decoded;
+  decoded.planes = map_planes(grid, image, settings, key, threads);
+
+  BitEncoder coder;
+  RangeImage occupancy = image;
+  code_occupancy(coder, occupancy, key != nullptr ? &key->image : nullptr);
+  const std::size_t after_occupancy = coder.size();
+  RunCoder<BitEncoder>(coder, grid, settings.tolerance.plane_step_m, key).code(image, decoded.planes);
+  const std::size_t after_planes = coder.size();
+  render_planes(grid, image, decoded.planes, decoded.image);
+  ResidualCoder<BitEncoder>(coder, settings.residual_step_m, key != nullptr ? &key->image : nullptr)
+      .code(image, decoded.image);
+
+  ByteWriter writer;
+  writer.put(static_cast<std::uint16_t>(image.first_row / settings.tile_size));
+  writer.put(static_cast<std::uint16_t>(image.rows / settings.tile_size));
+  writer.put(coder.finish());
+  frame.bytes = writer.take();
+
+  frame.statistics = count_cells(image, decoded.planes);
+  frame.statistics.occupancy_bits = 8.0 * static_cast<double>(after_occupancy);
+  frame.statistics.plane_bits = 8.0 * static_cast<double>(after_planes - after_occupancy);
+  frame.statistics.residual_bits = 8.0 * static_cast<double>(frame.bytes.size()) -
+                                   frame.statistics.occupancy_bits - frame.statistics.plane_bits;
+  return frame;
+}
+
+Result<KeyFrame> decode_frame(const AngularGrid& grid, std::span<const std::uint8_t> bytes,
+                              const FrameSettings& settings, const KeyFrame* key) {
+  ByteReader reader(bytes);
+  RangeImage occupancy;
+  occupancy.columns = grid.columns();
+  occupancy.first_row = reader.get<std::uint16_t>() * settings.tile_size;
+  occupancy.rows = reader.get<std::uint16_t>() * settings.tile_size;
+  if (!reader.ok())
+    return Error{ErrorCode::truncated, "the frame's payload ends within its first four bytes"};
+  const std::size_t cells = occupancy.index(occupancy.rows, 0);
+  if (occupancy.first_row + occupancy.rows >= grid.rows() + settings.tile_size || cells > kMaxCells) {
+    return Error{ErrorCode::corrupt, "the frame's rows " + std::to_string(occupancy.first_row) + " + " +
+                                         std::to_string(occupancy.rows) + " lie outside the grid"};
+  }
+  occupancy.range_m.assign(cells, 0.0f);
+  const Error damaged{ErrorCode::corrupt, "the frame's coded data are damaged"};
+
+  BitDecoder coder(reader.rest());
+  code_occupancy(coder, occupancy, key != nullptr ? &key->image : nullptr);
+  if (coder.overran()) return damaged;
+
+  KeyFrame decoded;
+  decoded.planes.layout = TileLayout(occupancy, settings.tile_size);
+  decoded.planes.run_of_tile.assign(decoded.planes.layout.count(), kUnfitTile);
+  RunCoder<BitDecoder> run_coder(coder, grid, settings.tolerance.plane_step_m, key);
+  if (!run_coder.code(occupancy, decoded.planes) || coder.overran()) return damaged;
+  if (!render_planes(grid, occupancy, decoded.planes, decoded.image)) return damaged;
+  ResidualCoder<BitDecoder>(coder, settings.residual_step_m, key != nullptr ? &key->image : nullptr)
+      .code(occupancy, decoded.image);
+  if (coder.overran()) return damaged;
+  return decoded;
+}
+
+}  // namespace pointreel
