@@ -1,0 +1,137 @@
+#include <xxhash.h>
+
+#include <algorithm>
+#include <istream>
+#include <string>
+
+#include "base/bytes.h"
+#include "codec/wire.h"
+#include "pointreel/reel.h"
+#include "reel/reel_layout.h"
+
+namespace pointreel {
+
+Result<ReelReader> ReelReader::open(std::istream& stream, std::string name) {
+  ReelReader reader(stream, std::move(name));
+  auto header = parse_stream_header(reader.read_bytes(kStreamHeaderBytes));
+  if (!header) return Error{header.error().code, reader.name_ + ": " + header.error().message};
+  reader.header_ = *std::move(header);
+  return reader;
+}
+
+std::optional<Packet> ReelReader::read_packet() {
+  if (ending_ != ReelEnding::open) return {};
+  const std::uint64_t packet_offset = offset_;
+  std::vector<std::uint8_t> bytes = read_bytes(kIndexHeaderBytes);
+  const auto sync = ByteReader(bytes).get<std::uint32_t>();
+  if (sync == kIndexSync) {
+    ending_ = ReelEnding::complete;
+    return {};
+  }
+  const auto end = [&](Error error) {
+    error.message = "packet at byte " + std::to_string(packet_offset) + ": " + error.message;
+    end_with(std::move(error));
+    return std::nullopt;
+  };
+  if (bytes.empty()) return end({ErrorCode::truncated, "the file ends here without an index"});
+  const auto size = packet_size(bytes);
+  if (!size) return end(size.error());
+  // Grown as bytes arrive, so that a damaged length cannot ask for memory that the file does not fill.
+  const std::vector<std::uint8_t> rest = read_bytes(*size - bytes.size());
+  bytes.insert(bytes.end(), rest.begin(), rest.end());
+  auto packet = parse_packet(bytes);
+  if (!packet) return end(packet.error());
+  return *std::move(packet);
+}
+
+Result<ReelIndex> ReelReader::index() {
+  ReelIndex index;
+  if (auto entries = stored_index()) {
+    index.entries = *std::move(entries);
+  } else {
+    if (!rewind_to(kStreamHeaderBytes)) return Error{ErrorCode::io_error, name_ + ": cannot seek"};
+    for (std::uint64_t start = offset_; const auto packet = read_packet(); start = offset_) {
+      index.entries.push_back(
+          {packet->frame, packet->reference_frame, start, static_cast<std::uint32_t>(offset_ - start)});
+    }
+    index.fault = fault_ ? *fault_ : Error{ErrorCode::corrupt, name_ + ": the index at its end is damaged"};
+  }
+  if (!rewind_to(kStreamHeaderBytes)) return Error{ErrorCode::io_error, name_ + ": cannot seek"};
+  return index;
+}
+
+Result<void> ReelReader::seek(const ReelIndexEntry& entry) {
+  if (!rewind_to(entry.offset)) {
+    return Error{ErrorCode::io_error, name_ + ": cannot seek to byte " + std::to_string(entry.offset)};
+  }
+  return {};
+}
+
+std::vector<std::uint8_t> ReelReader::read_bytes(std::size_t count) {
+  constexpr std::size_t kChunk = 1 << 20;
+  std::vector<std::uint8_t> bytes;
+  while (bytes.size() < count && *stream_) {
+    const std::size_t before = bytes.size();
+    bytes.resize(before + std::min(kChunk, count - before));
+    stream_->read(reinterpret_cast<char*>(bytes.data() + before),
+                  static_cast<std::streamsize>(bytes.size() - before));
+    bytes.resize(before + static_cast<std::size_t>(stream_->gcount()));
+  }
+  offset_ += bytes.size();
+  return bytes;
+}
+
+void ReelReader::end_with(Error error) {
+  ending_ = ReelEnding::cut_off;
+  fault_ = Error{error.code, name_ + ": " + error.message};
+}
+
+// The index, when footer, checksum and sizes all agree with the file.
+std::optional<std::vector<ReelIndexEntry>> ReelReader::stored_index() {
+  stream_->clear();
+  stream_->seekg(0, std::ios::end);
+  const auto file_bytes = static_cast<std::int64_t>(stream_->tellg());
+  if (file_bytes < static_cast<std::int64_t>(kStreamHeaderBytes + kFooterBytes)) return {};
+  const std::uint64_t footer_offset = static_cast<std::uint64_t>(file_bytes) - kFooterBytes;
+  if (!rewind_to(footer_offset)) return {};
+  const auto footer_bytes = read_bytes(kFooterBytes);
+  ByteReader footer(footer_bytes);
+  const auto index_offset = footer.get<std::uint64_t>();
+  const auto magic = footer.get(kFooterMagic.size());
+  if (!footer.ok() || !std::equal(magic.begin(), magic.end(), kFooterMagic.begin())) return {};
+  if (index_offset < kStreamHeaderBytes || index_offset > footer_offset || !rewind_to(index_offset))
+    return {};
+
+  const auto bytes = read_bytes(static_cast<std::size_t>(footer_offset - index_offset));
+  if (bytes.size() < kIndexHeaderBytes + kChecksumBytes) return {};
+  ByteReader reader(bytes);
+  const auto sync = reader.get<std::uint32_t>();
+  const auto count = reader.get<std::uint32_t>();
+  if (sync != kIndexSync ||
+      bytes.size() != kIndexHeaderBytes + std::uint64_t{count} * kIndexEntryBytes + kChecksumBytes) {
+    return {};
+  }
+  std::vector<ReelIndexEntry> entries(count);
+  std::uint64_t offset = kStreamHeaderBytes;
+  for (ReelIndexEntry& entry : entries) {
+    entry.frame = reader.get<std::uint32_t>();
+    entry.reference_frame = reader.get<std::uint32_t>();
+    entry.bytes = reader.get<std::uint32_t>();
+    entry.offset = offset;
+    offset += entry.bytes;
+  }
+  const auto sum = reader.get<std::uint32_t>();
+  if (sum != XXH32(bytes.data(), bytes.size() - kChecksumBytes, 0) || offset != index_offset) return {};
+  return entries;
+}
+
+bool ReelReader::rewind_to(std::uint64_t offset) {
+  stream_->clear();
+  stream_->seekg(static_cast<std::streamoff>(offset));
+  offset_ = offset;
+  ending_ = ReelEnding::open;
+  fault_.reset();
+  return static_cast<bool>(*stream_);
+}
+
+}  // namespace pointreel

@@ -1,0 +1,216 @@
+// pointreel decode: a .reel to one file per sweep.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "common/packet_batches.h"
+#include "pointreel/console.h"
+#include "pointreel/exit_code.h"
+#include "pointreel/io.h"
+#include "pointreel/reel_input.h"
+#include "pointreel/verbs.h"
+
+namespace pointreel {
+namespace {
+
+struct DecodeArguments {
+  std::string input;
+  std::string output;
+  std::string format = "kitti";
+  std::string frames;
+  int threads = 0;
+  bool force = false;
+  bool json = false;
+};
+
+struct FrameRange {
+  std::uint32_t begin = 0;
+  std::uint32_t end = std::numeric_limits<std::uint32_t>::max();  // exclusive
+  bool contains(std::uint32_t frame) const { return frame >= begin && frame < end; }
+};
+
+// "A:B", "A:", ":B" (B exclusive) or a single "A".
+Result<FrameRange> parse_frames(const std::string& text) {
+  FrameRange range;
+  const auto number = [&](std::string_view part, std::uint32_t& value) {
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+    return error == std::errc{} && end == part.data() + part.size();
+  };
+  const std::size_t colon = text.find(':');
+  const std::string_view first = std::string_view(text).substr(0, colon);
+  bool good = true;
+  if (colon == std::string::npos) {
+    good = number(first, range.begin);
+    range.end = range.begin + 1;
+  } else {
+    const std::string_view second = std::string_view(text).substr(colon + 1);
+    if (!first.empty()) good = number(first, range.begin);
+    if (!second.empty()) good = good && number(second, range.end);
+  }
+  if (!good || range.begin >= range.end) {
+    return Error{ErrorCode::invalid_argument,
+                 fmt::format("--frames: '{}' is not A:B with A < B (B is not included)", text)};
+  }
+  return range;
+}
+
+struct Written {
+  std::uint64_t frames = 0, points = 0;
+  bool lost_some = false;
+};
+
+class SweepFiles {
+ public:
+  SweepFiles(std::filesystem::path folder, CloudFormat format, bool force)
+      : folder_(std::move(folder)), format_(format), force_(force) {}
+
+  Result<void> write(const DecodedSweep& sweep) const {
+    const auto path = folder_ / fmt::format("{:06}{}", sweep.frame, file_extension(format_));
+    if (!force_ && std::filesystem::exists(path)) {
+      return Error{ErrorCode::io_error, path.string() + ": exists; -f overwrites it"};
+    }
+    return write_cloud(path, sweep.cloud, format_);
+  }
+
+ private:
+  std::filesystem::path folder_;
+  CloudFormat format_;
+  bool force_;
+};
+
+// Decodes a batch and writes the wanted sweeps. False when writing failed.
+bool decode_batch(Decoder& decoder, std::span<const Packet> batch, const FrameRange& wanted,
+                  const SweepFiles& files, Written& written) {
+  for (const auto& sweep : decoder.decode(batch)) {
+    if (!sweep) {
+      print_error(sweep.error());
+      written.lost_some = true;
+      continue;
+    }
+    if (!wanted.contains(sweep->frame)) continue;
+    if (auto done = files.write(*sweep); !done) {
+      print_error(done.error());
+      return false;
+    }
+    ++written.frames;
+    written.points += sweep->cloud.size();
+  }
+  return true;
+}
+
+// Only the packets that the wanted frames need, found by the index.
+Result<std::vector<Packet>> packets_for(ReelReader& reader, const FrameRange& wanted, Written& written) {
+  const auto index = reader.index();
+  if (!index) return index.error();
+  if (index->fault) {
+    print_error(*index->fault);
+    written.lost_some = true;
+  }
+  std::set<std::uint32_t> needed;
+  for (const ReelIndexEntry& entry : index->entries) {
+    if (wanted.contains(entry.frame)) needed.insert({entry.frame, entry.reference_frame});
+  }
+  std::vector<Packet> packets;
+  for (const ReelIndexEntry& entry : index->entries) {
+    if (!needed.contains(entry.frame)) continue;
+    if (auto found = reader.seek(entry); !found) return found.error();
+    auto packet = reader.read_packet();
+    if (!packet) return reader.fault().value_or(Error{ErrorCode::corrupt, "the index points at no packet"});
+    packets.push_back(*std::move(packet));
+  }
+  return packets;
+}
+
+int run(const DecodeArguments& arguments) {
+  const auto format = parse_cloud_format(arguments.format);
+  const auto wanted =
+      arguments.frames.empty() ? Result<FrameRange>(FrameRange{}) : parse_frames(arguments.frames);
+  for (const Error* error : {format ? nullptr : &format.error(), wanted ? nullptr : &wanted.error()}) {
+    if (error == nullptr) continue;
+    print_error(*error);
+    return kWrongArguments;
+  }
+  auto input = ReelInput::open(arguments.input);
+  if (!input) {
+    print_error(input.error());
+    return kFailed;
+  }
+  ReelReader& reader = (*input)->reader();
+  auto decoder = Decoder::create(reader.header(), Runtime{arguments.threads});
+  if (!decoder) {
+    print_error(decoder.error());
+    return kFailed;
+  }
+  std::error_code failed;
+  std::filesystem::create_directories(arguments.output, failed);
+  if (failed) {
+    print_error({ErrorCode::io_error, arguments.output + ": cannot create the folder: " + failed.message()});
+    return kFailed;
+  }
+
+  const SweepFiles files(arguments.output, *format, arguments.force);
+  Written written;
+  const auto start = std::chrono::steady_clock::now();
+  if (arguments.frames.empty() || arguments.input == "-") {
+    PacketBatches batches(reader);
+    for (auto batch = batches.next(); !batch.empty(); batch = batches.next()) {
+      if (!decode_batch(*decoder, batch, *wanted, files, written)) return kFailed;
+    }
+    if (reader.fault()) {
+      print_error(*reader.fault());
+      written.lost_some = true;
+    }
+  } else {
+    const auto packets = packets_for(reader, *wanted, written);
+    if (!packets) {
+      print_error(packets.error());
+      return kFailed;
+    }
+    if (!decode_batch(*decoder, *packets, *wanted, files, written)) return kFailed;
+  }
+  const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
+  if (written.frames == 0 && !arguments.frames.empty() && !written.lost_some) {
+    print_error({ErrorCode::invalid_argument,
+                 fmt::format("--frames: {} has no frame in {}", arguments.input, arguments.frames)});
+    return kFailed;
+  }
+  const double sweeps_per_second = wall_s > 0 ? static_cast<double>(written.frames) / wall_s : 0;
+  if (arguments.json) {
+    const nlohmann::json report = {{"frames", written.frames},
+                                   {"points", written.points},
+                                   {"data_lost", written.lost_some},
+                                   {"sweeps_per_second_with_io", sweeps_per_second}};
+    fmt::print("{}\n", report.dump(2));
+  } else {
+    fmt::print("{}: {} sweeps, {} points ({:.1f} sweeps/s with reading and writing)\n", arguments.output,
+               written.frames, written.points, sweeps_per_second);
+  }
+  return written.lost_some ? kDataLoss : kDone;
+}
+
+}  // namespace
+
+Verb add_decode(CLI::App& app) {
+  CLI::App* verb = app.add_subcommand("decode", "Write the sweeps of a .reel as files");
+  auto arguments = std::make_shared<DecodeArguments>();
+  verb->add_option("REEL", arguments->input, "The .reel; - for standard input")->required();
+  verb->add_option("-o,--output", arguments->output, "Folder for the sweeps (000000.bin, ...)")->required();
+  verb->add_option("--format", arguments->format, "kitti, nuscenes, pcd or ply")->capture_default_str();
+  verb->add_option("--frames", arguments->frames, "Only frames A to B - 1, as A:B, A:, :B or A");
+  verb->add_option("--threads", arguments->threads, "0: one per processor")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
+  verb->add_flag("-f,--force", arguments->force, "Overwrite files");
+  verb->add_flag("--json", arguments->json, "Report as JSON on standard output");
+  return [arguments] { return run(*arguments); };
+}
+
+}  // namespace pointreel

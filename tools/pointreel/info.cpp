@@ -1,0 +1,153 @@
+// pointreel info: what is inside a .reel, without decoding it.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <vector>
+
+#include "pointreel/console.h"
+#include "pointreel/exit_code.h"
+#include "pointreel/reel_input.h"
+#include "pointreel/units.h"
+#include "pointreel/verbs.h"
+
+namespace pointreel {
+namespace {
+
+struct InfoArguments {
+  std::string input;
+  bool verbose = false;
+  bool json = false;
+};
+
+struct FrameLine {
+  std::uint32_t frame, group, reference_frame;
+  FrameKind kind;
+  std::uint64_t bytes;
+  std::uint32_t points_in, points_out, non_finite;
+};
+
+struct Summary {
+  std::vector<FrameLine> frames;
+  std::uint64_t bytes = 0, points_in = 0, points_out = 0, non_finite = 0, key_frames = 0;
+};
+
+Summary summarise(ReelReader& reader) {
+  Summary summary;
+  while (const auto packet = reader.read_packet()) {
+    const std::uint64_t bytes = serialize(*packet).size();
+    summary.frames.push_back({packet->frame, packet->group, packet->reference_frame, packet->kind, bytes,
+                              packet->points_in, packet->points_out, packet->non_finite});
+    summary.bytes += bytes;
+    summary.points_in += packet->points_in;
+    summary.points_out += packet->points_out;
+    summary.non_finite += packet->non_finite;
+    summary.key_frames += packet->kind == FrameKind::key;
+  }
+  return summary;
+}
+
+double degrees(double radians) {
+  return radians * 180 / std::numbers::pi;
+}
+
+const char* name_of(FrameKind kind) {
+  return kind == FrameKind::key ? "K" : "P";
+}
+
+nlohmann::json to_json(const Summary& summary, const StreamHeader& header, bool complete, bool verbose) {
+  nlohmann::json json = {{"method", "planes"},
+                         {"threshold_m", header.planes.threshold_m},
+                         {"azimuth_step_deg", degrees(header.planes.azimuth_step_rad)},
+                         {"elevation_step_deg", degrees(header.planes.elevation_step_rad)},
+                         {"tile", header.planes.tile_size},
+                         {"group", header.planes.group},
+                         {"residual_step_m", header.planes.residual_mode == ResidualMode::raw_float
+                                                 ? nlohmann::json("raw")
+                                                 : nlohmann::json(header.planes.residual_step_m)},
+                         {"range_bound_m", header.range_bound_m()},
+                         {"order_preserved", false},
+                         {"frames", summary.frames.size()},
+                         {"key_frames", summary.key_frames},
+                         {"points_in", summary.points_in},
+                         {"points_out", summary.points_out},
+                         {"points_lost", summary.points_in - summary.points_out - summary.non_finite},
+                         {"points_non_finite", summary.non_finite},
+                         {"packet_bytes", summary.bytes},
+                         {"complete", complete}};
+  if (verbose) {
+    for (const FrameLine& line : summary.frames) {
+      json["packets"].push_back({{"frame", line.frame},
+                                 {"group", line.group},
+                                 {"kind", name_of(line.kind)},
+                                 {"reference_frame", line.reference_frame},
+                                 {"bytes", line.bytes},
+                                 {"points_in", line.points_in},
+                                 {"points_out", line.points_out},
+                                 {"points_non_finite", line.non_finite}});
+    }
+  }
+  return json;
+}
+
+double bits_per_point(std::uint64_t bytes, std::uint64_t points) {
+  return points == 0 ? 0 : 8.0 * static_cast<double>(bytes) / static_cast<double>(points);
+}
+
+void print_summary(const Summary& summary, const StreamHeader& header, const std::string& name,
+                   bool verbose) {
+  const PlanesOptions& planes = header.planes;
+  fmt::print("{}: {} sweeps ({} key frames), {} points, {} ({:.3f} bits per point)\n", name,
+             summary.frames.size(), summary.key_frames, summary.points_in,
+             format_bytes(static_cast<double>(summary.bytes)),
+             bits_per_point(summary.bytes, summary.points_in));
+  fmt::print("  method    planes: threshold {:g} m, grid {:g} x {:g} deg, tiles {}x{}, groups of {}\n",
+             planes.threshold_m, degrees(planes.azimuth_step_rad), degrees(planes.elevation_step_rad),
+             planes.tile_size, planes.tile_size, planes.group);
+  fmt::print("  residual  {}\n", planes.residual_mode == ResidualMode::raw_float
+                                     ? std::string("raw float32")
+                                     : fmt::format("steps of {:g} m", planes.residual_step_m));
+  fmt::print(
+      "  kept      {} points; {} lost to nearer ones in the same cell, {} not finite; order not kept\n",
+      summary.points_out, summary.points_in - summary.points_out - summary.non_finite, summary.non_finite);
+  if (!verbose) return;
+  fmt::print("\n  {:>7} {:>6} {:>4} {:>9} {:>9} {:>9} {:>9} {:>7}\n", "frame", "group", "kind", "reference",
+             "bytes", "points in", "out", "bpp");
+  for (const FrameLine& line : summary.frames) {
+    fmt::print("  {:>7} {:>6} {:>4} {:>9} {:>9} {:>9} {:>9} {:>7.3f}\n", line.frame, line.group,
+               name_of(line.kind), line.reference_frame, line.bytes, line.points_in, line.points_out,
+               bits_per_point(line.bytes, line.points_in));
+  }
+}
+
+int run(const InfoArguments& arguments) {
+  auto input = ReelInput::open(arguments.input);
+  if (!input) {
+    print_error(input.error());
+    return kFailed;
+  }
+  ReelReader& reader = (*input)->reader();
+  const Summary summary = summarise(reader);
+  if (arguments.json) {
+    fmt::print("{}\n", to_json(summary, reader.header(), !reader.fault(), arguments.verbose).dump(2));
+  } else {
+    print_summary(summary, reader.header(), arguments.input, arguments.verbose);
+  }
+  if (!reader.fault()) return kDone;
+  print_error(*reader.fault());
+  return kDataLoss;
+}
+
+}  // namespace
+
+Verb add_info(CLI::App& app) {
+  CLI::App* verb = app.add_subcommand("info", "Show what a .reel holds");
+  auto arguments = std::make_shared<InfoArguments>();
+  verb->add_option("REEL", arguments->input, "The .reel; - for standard input")->required();
+  verb->add_flag("-v,--verbose", arguments->verbose, "A line per frame");
+  verb->add_flag("--json", arguments->json, "JSON on standard output");
+  return [arguments] { return run(*arguments); };
+}
+
+}  // namespace pointreel
