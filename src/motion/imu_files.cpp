@@ -22,8 +22,9 @@ bool is_header(const TextLine& line) {
 Result<void> check_header(const TextLine& line) {
   const auto words = split(line.text, Separator::comma);
   for (std::size_t k = 0; k < words.size(); ++k) {
-    const auto column = std::find(kColumns.begin(), kColumns.end(), words[k]);
-    if (column != kColumns.end() && column != kColumns.begin() + k) {
+    const auto column =
+        static_cast<std::size_t>(std::find(kColumns.begin(), kColumns.end(), words[k]) - kColumns.begin());
+    if (column != kColumns.size() && column != k) {
       return line.error("column " + std::string(words[k]) +
                         " is not where t,ax,ay,az,wx,wy,wz,vx,vy,vz has it");
     }

@@ -60,9 +60,10 @@ std::optional<Timestamp> parse_timestamp(std::string_view text) {
   if (!date.ok()) return std::nullopt;
 
   Timestamp time;
-  const std::chrono::sys_days days = date;
-  time.seconds =
-      std::int64_t{days.time_since_epoch().count()} * 86400 + *hour * 3600 + *minute * 60 + *second;
+  const std::chrono::sys_seconds whole_seconds = std::chrono::sys_days(date) + std::chrono::hours(*hour) +
+                                                 std::chrono::minutes(*minute) +
+                                                 std::chrono::seconds(*second);
+  time.seconds = whole_seconds.time_since_epoch().count();
   if (!text.empty()) {
     const auto fraction_s = text.front() == '.' ? parse_number(text) : std::nullopt;
     if (!fraction_s || *fraction_s >= 1) return std::nullopt;
@@ -99,7 +100,7 @@ fs::path find_calibration(const fs::path& folder) {
   std::error_code failure;
   fs::path parent = fs::absolute(folder / "..", failure).lexically_normal();
   for (int level = 0; level < 3; ++level) {
-    const fs::path candidate = parent / "calib_imu_to_velo.txt";
+    fs::path candidate = parent / "calib_imu_to_velo.txt";
     if (fs::exists(candidate, failure)) return candidate;
     parent = (parent / "..").lexically_normal();
   }

@@ -62,7 +62,7 @@ RC_GTEST_PROP(IntegrateImu, ConstantRateGivesTheAngle, ()) {
 // A full circle without a rest before it: gravity has to come from the mean, whatever way the unit is tilted.
 RC_GTEST_PROP(IntegrateImu, CircleWithGravityClosesAndKeepsItsRadius, ()) {
   const double radius_m = between(10, 50);
-  const auto steps = static_cast<std::size_t>(*rc::gen::inRange(1200, 6000));
+  const auto steps = static_cast<std::size_t>(*rc::gen::inRange(300, 1000));
   const double turn_rad = *rc::gen::arbitrary<bool>() ? 2 * M_PI : -2 * M_PI;
   const double yaw_rate_radps = turn_rad / (static_cast<double>(steps) * kStep_s);
   const Eigen::Matrix3d R_tilted_level = (Eigen::AngleAxisd(between(-0.2, 0.2), Vec3::UnitX()) *
@@ -79,9 +79,9 @@ RC_GTEST_PROP(IntegrateImu, CircleWithGravityClosesAndKeepsItsRadius, ()) {
 
   const Vec3 centre = R_tilted_level * Vec3(0, std::copysign(radius_m, yaw_rate_radps), 0);
   for (const TimedPose& pose : *track) {
-    RC_ASSERT(std::abs((pose.T_world_sensor.translation() - centre).norm() - radius_m) < 1e-4 * radius_m);
+    RC_ASSERT(std::abs((pose.T_world_sensor.translation() - centre).norm() - radius_m) < 1e-3 * radius_m);
   }
-  RC_ASSERT(track->back().T_world_sensor.translation().norm() < 1e-4 * radius_m);
+  RC_ASSERT(track->back().T_world_sensor.translation().norm() < 1e-3 * radius_m);
   RC_ASSERT(track->back().T_world_sensor.linear().isIdentity(1e-9));
 }
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <sstream>
@@ -23,11 +24,9 @@ std::string to_line(const Reading& reading) {
   values.fill(77);  // what the reader has to leave alone
   values[3] = reading.roll_rad;
   values[4] = reading.pitch_rad;
-  for (int k = 0; k < 3; ++k) {
-    values[static_cast<std::size_t>(8 + k)] = reading.velocity_level_mps[k];
-    values[static_cast<std::size_t>(11 + k)] = reading.acceleration_mps2[k];
-    values[static_cast<std::size_t>(17 + k)] = reading.rate_radps[k];
-  }
+  std::copy_n(reading.velocity_level_mps.data(), 3, &values[8]);
+  std::copy_n(reading.acceleration_mps2.data(), 3, &values[11]);
+  std::copy_n(reading.rate_radps.data(), 3, &values[17]);
   std::ostringstream line;
   line.precision(17);
   for (const double value : values) line << value << ' ';

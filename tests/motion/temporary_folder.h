@@ -24,7 +24,7 @@ class TemporaryFolder {
 
   // Writes `text` under the relative `name`, with the folders it needs.
   std::filesystem::path file(const std::filesystem::path& name, const std::string& text) const {
-    const std::filesystem::path file = path_ / name;
+    std::filesystem::path file = path_ / name;
     std::filesystem::create_directories(file.parent_path());
     std::ofstream(file, std::ios::binary) << text;
     return file;
