@@ -29,19 +29,25 @@ struct ImuSample {
   std::optional<Eigen::Vector3d> velocity_mps;
 };
 
-// --- files (errors name file and line) ---
+// --- files ---
+// Errors name file and line: io_error, corrupt (also times that do not increase), truncated where nothing is
+// in the file, resource_limit. Empty lines and lines that start with # are skipped.
 
-// KITTI: one 3x4 row-major matrix T_world_sensor a line. No times.
+// KITTI: one 3x4 row-major matrix T_world_sensor a line. No times. A rounded rotation is made orthonormal;
+// one whose elements are more than 0.002 off a rotation is corrupt.
 Result<std::vector<Pose>> read_kitti_poses(const std::filesystem::path& path);
 Result<void> write_kitti_poses(const std::filesystem::path& path, std::span<const Pose> T_world_sensor);
-// TUM: "time tx ty tz qx qy qz qw" a line, # starts a comment.
+// TUM: "time tx ty tz qx qy qz qw" a line.
 Result<std::vector<TimedPose>> read_tum_poses(const std::filesystem::path& path);
-// CSV: t, ax, ay, az, wx, wy, wz[, vx, vy, vz] in s, m/s^2, rad/s, m/s; an optional header line; # comments.
+// CSV: t, ax, ay, az, wx, wy, wz[, vx, vy, vz] in s, m/s^2, rad/s, m/s; an optional header line in any
+// wording, but these names in another order are corrupt. Writing and reading keeps every bit.
 Result<std::vector<ImuSample>> read_imu_csv(const std::filesystem::path& path);
 Result<void> write_imu_csv(const std::filesystem::path& path, std::span<const ImuSample> samples);
-// KITTI oxts folder: timestamps.txt and data/*.txt (30 values a file). Times are seconds since the first
-// sample. vf, vl, vu become velocity_mps. The folder's sibling calib_imu_to_velo.txt, or one in a parent
-// folder up to two levels up, rotates the readings into the LiDAR's axes where it exists.
+// KITTI oxts folder: timestamps.txt and data/*.txt (30 values a file; the number in a file's name is its line
+// of timestamps.txt, from 0). Times are seconds since the first sample. vf, vl, vu, tilted by roll and pitch,
+// become velocity_mps. The folder's sibling calib_imu_to_velo.txt, or one in a parent folder up to two levels
+// up, turns the readings into the LiDAR's axes where it exists, and makes velocity_mps that of the LiDAR's
+// place.
 Result<std::vector<ImuSample>> read_kitti_oxts(const std::filesystem::path& folder);
 
 // --- IMU integration (the paper's first-order scheme) ---
@@ -51,12 +57,12 @@ struct ImuIntegrationOptions {
   // Gravity and gyro bias: averaged over this lead-in where the IMU stands still (no rotation, |a|
   // about 9.81); without such a lead-in gravity is taken from the mean acceleration when that is near 9.81,
   // and no bias.
-  double stationary_s = 0.5;
+  double stationary_s = 0.5;  // 0: no lead-in
 };
 
-// Dead reckoning: v' = v + (a + a')/2 dt, dx = (v + v')/2 dt, the same for the angles (DESIGN 2.2), giving
-// the sensor's pose at every sample in the frame of the first. Error: invalid_argument when times do not
-// increase.
+// Dead reckoning: v' = v + (a + a')/2 dt, dx = (v + v')/2 dt, the same for the angles, giving the sensor's
+// pose at every sample in the frame of the first. A sample's velocity_mps replaces v'. Error:
+// invalid_argument when there are no samples, times do not increase or a number is not finite.
 Result<std::vector<TimedPose>> integrate_imu(std::span<const ImuSample> samples,
                                              const ImuIntegrationOptions& options = {});
 
