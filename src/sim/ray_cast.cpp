@@ -69,7 +69,10 @@ Hit cast_facade(const Ray& ray, const SceneObject& object, const Vector3d& half_
       ((du > 0 ? half_window_m : -half_window_m) - from_window_middle_m) / (du == 0 ? 1e-9 : du);
   const double to_ledge_m = ((dv > 0 ? lintel_m : sill_m) - above_floor_m) / (dv == 0 ? 1e-9 : dv);
   if (to_pane_m < std::min(to_jamb_m, to_ledge_m)) {
-    return {passage.enter_m + to_pane_m, cos_wall, Material::glass};
+    const auto bay = static_cast<std::uint64_t>(u_m / bay_m),
+               floor = static_cast<std::uint64_t>(v_m / floor_m);
+    const bool curtained = detail(object, 1024 + 64 * bay + floor) < 0.5;
+    return {passage.enter_m + to_pane_m, cos_wall, curtained ? Material::plaster : Material::glass};
   }
   if (to_jamb_m < to_ledge_m) return {passage.enter_m + to_jamb_m, std::abs(du), object.material};
   return {passage.enter_m + to_ledge_m, std::abs(dv), object.material};
