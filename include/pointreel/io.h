@@ -53,10 +53,10 @@ Result<PointCloud> read_cloud(const std::filesystem::path& path, std::optional<C
 Result<void> write_cloud(const std::filesystem::path& path, const PointCloud& cloud, CloudFormat format,
                          CloudEncoding encoding = CloudEncoding::binary);
 
-// The cloud files that the user's arguments mean, in natural order within each argument (2.bin
-// before 10.bin). An argument is a file, a folder (its cloud files; or those of its velodyne/,
-// velodyne_points/data/ or data/ subfolder when it has none itself; hidden files are no cloud files), or a
-// glob pattern (* ? [..]) of files. Error naming the argument when one matches nothing.
+// The cloud files that the user's arguments mean, in natural order within each argument (2.bin before
+// 10.bin). An argument is a file, a folder (its cloud files; or those of its velodyne/, velodyne_points/data/
+// or data/ subfolder when it has none itself; hidden files are no cloud files), or a glob pattern (* ? [..])
+// of files. Error naming the argument when one matches nothing.
 Result<std::vector<std::filesystem::path>> expand_inputs(std::span<const std::string> arguments);
 
 // True when a sorts before b with digit runs compared as numbers.

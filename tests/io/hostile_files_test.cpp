@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <ostream>
 #include <random>
 #include <string>
 
@@ -19,6 +20,9 @@ struct Kind {
   CloudEncoding encoding;
   Result<PointCloud> (*parse)(std::string_view bytes, const std::string& file);
   Result<std::string> (*serialize)(const PointCloud& cloud, CloudEncoding encoding);
+
+  // Without it GoogleTest prints addresses, which change the test's name from run to run.
+  friend void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
 };
 
 // With faces after the points, which are lists.
@@ -40,7 +44,7 @@ constexpr std::array kinds = {
     Kind{"PlyMesh", CloudEncoding::binary, parse_ply, serialize_ply_mesh},
 };
 
-// Half of it repeats, so that LZF has something to refer back to.
+// Repeats in part, so that LZF has something to refer back to.
 PointCloud small_cloud() {
   constexpr std::size_t count = 24;
   PointCloud cloud;
