@@ -6,7 +6,8 @@ endif()
 add_library(pointreel_options INTERFACE)
 target_compile_features(pointreel_options INTERFACE cxx_std_20)
 # -ffp-contract=off: decoding must give the same bits on every processor, so no fused multiply-add.
-target_compile_options(pointreel_options INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow
+# -fno-math-errno, -fno-trapping-math: no result changes, but square roots and selections become SIMD code.
+target_compile_options(pointreel_options INTERFACE -ffp-contract=off -fno-math-errno -fno-trapping-math -Wall -Wextra -Wpedantic -Wshadow
                                                    -Wconversion -Wno-sign-conversion -Werror)
 
 set(POINTREEL_SANITIZE "" CACHE STRING "Comma-separated sanitizers: address,undefined or thread")

@@ -57,9 +57,10 @@ class PlanesEncoder final : public Encoder::Implementation {
       T_key_sensor[i] = *std::move(pose);
     }
     std::vector<Result<RangeImage>> images(count, RangeImage{});
+    const int threads_per_cloud = count == 1 ? threads_ : 1;
     parallel_for(count, threads_, [&](std::size_t i) {
-      images[i] =
-          range_image_of(grid_, project_points(grid_, group_[i].cloud, T_key_sensor[i]), settings_.tile_size);
+      const auto points = project_points(grid_, group_[i].cloud, T_key_sensor[i], threads_per_cloud);
+      images[i] = range_image_of(grid_, points, settings_.tile_size);
     });
     for (std::size_t i = 0; i < count; ++i) {
       if (!images[i]) {

@@ -16,33 +16,33 @@ namespace pointreel {
 // P(1) as the mean of a fast and a slow exponential average; both start fast (rate 1/n) and then settle.
 class AdaptiveBit {
  public:
-  Probability16 p_one() const {
-    const std::uint32_t p = (static_cast<std::uint32_t>(fast_) + slow_) / 2;
-    return p < kMinProbability ? kMinProbability
-                               : (p > 65536 - kMinProbability ? 65536 - kMinProbability : p);
-  }
+  // Within [71, 65465]: an average moves by p >> shift, so the slow one stops at 127, the fast one at 15 from
+  // either end. That keeps every coded bit possible, and clear of kMinProbability.
+  Probability16 p_one() const { return (static_cast<std::uint32_t>(fast_) + slow_) >> 1; }
 
   void update(bool bit) {
-    if (count_ < kSlowShift) ++count_;
-    const int start_shift = kStartShift[count_];
-    fast_ = moved(fast_, bit, start_shift < kFastShift ? start_shift : kFastShift);
-    slow_ = moved(slow_, bit, start_shift);
+    const int target = bit ? 65535 : 0;
+    fast_ = moved(fast_, target, kFastShifts[count_]);
+    slow_ = moved(slow_, target, kSlowShifts[count_]);
+    count_ = static_cast<std::uint8_t>(count_ + (count_ < kSettled ? 1 : 0));
   }
 
  private:
-  static constexpr int kFastShift = 4;
-  static constexpr int kSlowShift = 7;
-  // Shift used for the n-th update: 1/2, 1/4, 1/4, 1/8 ... until the slow rate is reached.
-  static constexpr std::array<std::uint8_t, kSlowShift + 1> kStartShift = {1, 1, 2, 2, 3, 4, 5, 7};
+  // Shift of the n-th update: about 1/n until the settled rate is reached.
+  static constexpr std::uint8_t kSettled = 6;
+  static constexpr std::array<std::uint8_t, kSettled + 1> kFastShifts = {1, 2, 2, 3, 4, 4, 4};
+  static constexpr std::array<std::uint8_t, kSettled + 1> kSlowShifts = {1, 2, 2, 3, 4, 5, 7};
 
-  static std::uint16_t moved(std::uint16_t p, bool bit, int shift) {
-    return static_cast<std::uint16_t>(bit ? p + ((65535 - p) >> shift) : p - (p >> shift));
+  // Rounds towards p, whatever the direction.
+  static std::uint16_t moved(std::uint16_t p, int target, int shift) {
+    return static_cast<std::uint16_t>(target > p ? p + ((target - p) >> shift) : p - ((p - target) >> shift));
   }
 
   std::uint16_t fast_ = 32768;
   std::uint16_t slow_ = 32768;
   std::uint8_t count_ = 0;
 };
+static_assert(71 >= kMinProbability);
 
 class BitEncoder {
  public:

@@ -1,10 +1,7 @@
 #include "planes/angular_grid.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
-
-#include "base/trigonometry.h"
 
 namespace pointreel {
 
@@ -24,6 +21,8 @@ Result<AngularGrid> AngularGrid::create(double azimuth_step_rad, double elevatio
 AngularGrid::AngularGrid(double azimuth_step_rad, double elevation_step_rad)
     : azimuth_step_rad_(azimuth_step_rad),
       elevation_step_rad_(elevation_step_rad),
+      columns_per_rad_(static_cast<float>(1 / azimuth_step_rad)),
+      rows_per_rad_(static_cast<float>(1 / elevation_step_rad)),
       // A step that divides the circle up to rounding must not get a sliver of a column more.
       rows_(static_cast<int>(std::ceil(kPi / elevation_step_rad - 1e-6))),
       columns_(static_cast<int>(std::ceil(2 * kPi / azimuth_step_rad - 1e-6))) {
@@ -37,14 +36,6 @@ AngularGrid::AngularGrid(double azimuth_step_rad, double elevation_step_rad)
     cos_elevation_.push_back(static_cast<float>(elevation.cos));
     sin_elevation_.push_back(static_cast<float>(elevation.sin));
   }
-}
-
-GridCell AngularGrid::cell_of(double x, double y, double z) const {
-  const double azimuth = fast_atan2(y, x);
-  const double from_zenith = fast_atan2(std::sqrt(x * x + y * y), z);
-  const double turned = azimuth < 0 ? azimuth + 2 * kPi : azimuth;
-  return {std::clamp(static_cast<int>(from_zenith / elevation_step_rad_), 0, rows_ - 1),
-          std::clamp(static_cast<int>(turned / azimuth_step_rad_), 0, columns_ - 1)};
 }
 
 }  // namespace pointreel

@@ -2,8 +2,10 @@
 // centres.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
+#include "base/trigonometry.h"
 #include "pointreel/point_cloud.h"
 #include "pointreel/result.h"
 
@@ -27,8 +29,16 @@ class AngularGrid {
   double azimuth_step_rad() const { return azimuth_step_rad_; }
   double elevation_step_rad() const { return elevation_step_rad_; }
 
-  // The cell that a point (x, y, z) != 0 falls into.
-  GridCell cell_of(double x, double y, double z) const;
+  // The cell that a point (x, y, z) != 0 falls into. Inline and without branches: projection loops are SIMD
+  // code.
+  GridCell cell_of(float x, float y, float z) const {
+    const float azimuth = fast_atan2(y, x);
+    const float from_zenith = fast_atan2(std::sqrt(x * x + y * y), z);
+    const float turned = azimuth < 0 ? azimuth + static_cast<float>(2 * kPi) : azimuth;
+    const int row = static_cast<int>(from_zenith * rows_per_rad_);
+    const int column = static_cast<int>(turned * columns_per_rad_);
+    return {row < rows_ ? row : rows_ - 1, column < columns_ ? column : columns_ - 1};
+  }
 
   // Unit ray through a cell's centre: (cos_e cos_a, cos_e sin_a, sin_e). Rows may exceed rows() by up to
   // kSpareRows, so that tiles need not end at the pole.
@@ -43,6 +53,8 @@ class AngularGrid {
 
   double azimuth_step_rad_;
   double elevation_step_rad_;
+  float columns_per_rad_;
+  float rows_per_rad_;
   int rows_;
   int columns_;
   std::vector<float> cos_azimuth_, sin_azimuth_;

@@ -15,7 +15,7 @@ namespace {
 
 // Anchor ranges in steps of half the threshold: finer steps cost more bits than the longer runs save, coarser
 // ones break too many runs (measured; docs/PLANES.md).
-constexpr double kPlaneStepPerThreshold = 0.5;
+constexpr double kPlaneStepPerThreshold = 0.7;
 
 const std::int32_t* key_marks(const RangeImage& image, const TileLayout& layout, int tile_row,
                               const KeyFrame& key) {
@@ -45,20 +45,15 @@ std::vector<PlaneRun> find_runs(const AngularGrid& grid, const RangeImage& image
   return runs;
 }
 
-PlaneMap map_planes(const AngularGrid& grid, const RangeImage& image, const FrameSettings& settings,
-                    const KeyFrame* key, int threads) {
+// The runs of all rows of tiles as one map, in raster order.
+PlaneMap map_of(const TileLayout& layout, const std::vector<std::vector<PlaneRun>>& runs_by_row) {
   PlaneMap map;
-  map.layout = TileLayout(image, settings.tile_size);
-  map.run_of_tile.assign(map.layout.count(), kUnfitTile);
-  std::vector<std::vector<PlaneRun>> runs_by_row(static_cast<std::size_t>(map.layout.tile_rows));
-  parallel_for(runs_by_row.size(), threads, [&](std::size_t tile_row) {
-    runs_by_row[tile_row] =
-        find_runs(grid, image, map.layout, static_cast<int>(tile_row), settings.tolerance, key);
-  });
+  map.layout = layout;
+  map.run_of_tile.assign(layout.count(), kUnfitTile);
   for (const auto& runs : runs_by_row) {
     for (const PlaneRun& run : runs) {
       const auto row_begin =
-          map.run_of_tile.begin() + static_cast<std::ptrdiff_t>(map.layout.index(run.tile_row, 0));
+          map.run_of_tile.begin() + static_cast<std::ptrdiff_t>(layout.index(run.tile_row, 0));
       std::fill(row_begin + run.first_tile, row_begin + run.end_tile,
                 static_cast<std::int32_t>(map.runs.size()));
       map.runs.push_back(run);
@@ -111,31 +106,46 @@ FrameSettings frame_settings(const PlanesOptions& options) {
 
 CodedFrame encode_frame(const AngularGrid& grid, const RangeImage& image, const FrameSettings& settings,
                         const KeyFrame* key, int threads) {
+  const RangeImage* key_image = key != nullptr ? &key->image : nullptr;
+  const TileLayout layout(image, settings.tile_size);
+
+  // The mask does not need the planes nor they its code: it is one more task beside the rows of tiles.
+  BitEncoder occupancy_coder;
+  std::vector<std::vector<PlaneRun>> runs_by_row(static_cast<std::size_t>(layout.tile_rows));
+  parallel_for(1 + runs_by_row.size(), threads, [&](std::size_t task) {
+    if (task == 0) {
+      RangeImage occupancy = image;
+      code_occupancy(occupancy_coder, occupancy, key_image);
+    } else {
+      runs_by_row[task - 1] =
+          find_runs(grid, image, layout, static_cast<int>(task - 1), settings.tolerance, key);
+    }
+  });
+
   CodedFrame frame;
   KeyFrame& decoded = frame.decoded;
-  decoded.planes = map_planes(grid, image, settings, key, threads);
-
+  decoded.planes = map_of(layout, runs_by_row);
   BitEncoder coder;
-  RangeImage occupancy = image;
-  code_occupancy(coder, occupancy, key != nullptr ? &key->image : nullptr);
-  const std::size_t after_occupancy = coder.size();
   RunCoder<BitEncoder>(coder, grid, settings.tolerance.plane_step_m, key).code(image, decoded.planes);
-  const std::size_t after_planes = coder.size();
+  const std::size_t plane_bytes = coder.size();
   render_planes(grid, image, decoded.planes, decoded.image);
-  ResidualCoder<BitEncoder>(coder, settings.residual_step_m, key != nullptr ? &key->image : nullptr)
-      .code(image, decoded.image);
+  ResidualCoder<BitEncoder>(coder, settings.residual_step_m, key_image).code(image, decoded.image);
 
+  const std::vector<std::uint8_t> occupancy_bytes = occupancy_coder.finish();
   ByteWriter writer;
   writer.put(static_cast<std::uint16_t>(image.first_row / settings.tile_size));
   writer.put(static_cast<std::uint16_t>(image.rows / settings.tile_size));
+  writer.put(static_cast<std::uint32_t>(occupancy_bytes.size()));
+  writer.put(std::span(occupancy_bytes));
+  const std::size_t before_ranges = writer.size();
   writer.put(coder.finish());
   frame.bytes = writer.take();
 
   frame.statistics = count_cells(image, decoded.planes);
-  frame.statistics.occupancy_bits = 8.0 * static_cast<double>(after_occupancy);
-  frame.statistics.plane_bits = 8.0 * static_cast<double>(after_planes - after_occupancy);
-  frame.statistics.residual_bits = 8.0 * static_cast<double>(frame.bytes.size()) -
-                                   frame.statistics.occupancy_bits - frame.statistics.plane_bits;
+  frame.statistics.occupancy_bits = 8.0 * static_cast<double>(occupancy_bytes.size());
+  frame.statistics.plane_bits = 8.0 * static_cast<double>(plane_bytes);
+  frame.statistics.residual_bits =
+      8.0 * static_cast<double>(frame.bytes.size() - before_ranges) - frame.statistics.plane_bits;
   return frame;
 }
 
@@ -146,8 +156,8 @@ Result<KeyFrame> decode_frame(const AngularGrid& grid, std::span<const std::uint
   occupancy.columns = grid.columns();
   occupancy.first_row = reader.get<std::uint16_t>() * settings.tile_size;
   occupancy.rows = reader.get<std::uint16_t>() * settings.tile_size;
-  if (!reader.ok())
-    return Error{ErrorCode::truncated, "the frame's payload ends within its first four bytes"};
+  const auto occupancy_bytes = reader.get(reader.get<std::uint32_t>());
+  if (!reader.ok()) return Error{ErrorCode::truncated, "the frame's payload ends before its planes"};
   const std::size_t cells = occupancy.index(occupancy.rows, 0);
   if (occupancy.first_row + occupancy.rows >= grid.rows() + settings.tile_size || cells > kMaxCells) {
     return Error{ErrorCode::corrupt, "the frame's rows " + std::to_string(occupancy.first_row) + " + " +
@@ -156,18 +166,19 @@ Result<KeyFrame> decode_frame(const AngularGrid& grid, std::span<const std::uint
   occupancy.range_m.assign(cells, 0.0f);
   const Error damaged{ErrorCode::corrupt, "the frame's coded data are damaged"};
 
-  BitDecoder coder(reader.rest());
-  code_occupancy(coder, occupancy, key != nullptr ? &key->image : nullptr);
-  if (coder.overran()) return damaged;
+  const RangeImage* key_image = key != nullptr ? &key->image : nullptr;
+  BitDecoder occupancy_coder(occupancy_bytes);
+  code_occupancy(occupancy_coder, occupancy, key_image);
+  if (occupancy_coder.overran()) return damaged;
 
   KeyFrame decoded;
   decoded.planes.layout = TileLayout(occupancy, settings.tile_size);
   decoded.planes.run_of_tile.assign(decoded.planes.layout.count(), kUnfitTile);
+  BitDecoder coder(reader.rest());
   RunCoder<BitDecoder> run_coder(coder, grid, settings.tolerance.plane_step_m, key);
   if (!run_coder.code(occupancy, decoded.planes) || coder.overran()) return damaged;
   if (!render_planes(grid, occupancy, decoded.planes, decoded.image)) return damaged;
-  ResidualCoder<BitDecoder>(coder, settings.residual_step_m, key != nullptr ? &key->image : nullptr)
-      .code(occupancy, decoded.image);
+  ResidualCoder<BitDecoder>(coder, settings.residual_step_m, key_image).code(occupancy, decoded.image);
   if (coder.overran()) return damaged;
   return decoded;
 }

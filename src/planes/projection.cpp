@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "base/parallel.h"
+
 namespace pointreel {
 namespace {
 
@@ -38,17 +40,34 @@ struct RigidMotion {
 }  // namespace
 
 std::vector<ProjectedPoint> project_points(const AngularGrid& grid, const PointCloud& cloud,
-                                           const Pose& T_key_sensor) {
+                                           const Pose& T_key_sensor, int threads) {
   const RigidMotion motion(T_key_sensor);
   std::vector<ProjectedPoint> projected(cloud.size());
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const Point3f& p = cloud.positions[i];
-    if (!is_finite(p)) continue;
-    const auto [x, y, z] = motion.apply(p.x, p.y, p.z);
-    const double range_m = std::sqrt(x * x + y * y + z * z);
-    if (!(range_m > 0 && range_m <= kFarthestPoint_m)) continue;
-    projected[i] = {grid.cell_of(x, y, z), static_cast<float>(range_m)};
-  }
+  const auto project = [&](std::size_t begin, std::size_t end) {
+    // Blocks that stay in the cache between the passes; each pass is one SIMD loop.
+    constexpr std::size_t kBlock = 512;
+    std::array<float, kBlock> x, y, z;
+    for (; begin < end; begin += kBlock) {
+      const std::size_t size = std::min(kBlock, end - begin);
+      const Point3f* points = &cloud.positions[begin];
+      ProjectedPoint* results = &projected[begin];
+      for (std::size_t i = 0; i < size; ++i) {
+        const Point3f p = points[i];
+        const auto [mx, my, mz] = motion.apply(p.x, p.y, p.z);
+        const double range_m = std::sqrt(mx * mx + my * my + mz * mz);
+        const bool usable = range_m > 0 && range_m <= kFarthestPoint_m;  // false for NaN and infinity, too
+        results[i].range_m = usable ? static_cast<float>(range_m) : 0.0f;
+        x[i] = usable ? static_cast<float>(mx) : 1.0f;
+        y[i] = usable ? static_cast<float>(my) : 0.0f;
+        z[i] = usable ? static_cast<float>(mz) : 0.0f;
+      }
+      for (std::size_t i = 0; i < size; ++i) results[i].cell = grid.cell_of(x[i], y[i], z[i]);
+    }
+  };
+  constexpr std::size_t kPointsPerTask = 1 << 14;
+  parallel_for((cloud.size() + kPointsPerTask - 1) / kPointsPerTask, threads, [&](std::size_t task) {
+    project(task * kPointsPerTask, std::min((task + 1) * kPointsPerTask, cloud.size()));
+  });
   return projected;
 }
 
@@ -83,20 +102,33 @@ Result<RangeImage> range_image_of(const AngularGrid& grid, const std::vector<Pro
 PointCloud cloud_of(const AngularGrid& grid, const RangeImage& image, const Pose& T_key_sensor) {
   const RigidMotion motion(T_key_sensor);
   PointCloud cloud;
-  cloud.positions.reserve(static_cast<std::size_t>(
-      std::count_if(image.range_m.begin(), image.range_m.end(), [](float range_m) { return range_m > 0; })));
+  if (image.rows == 0) return cloud;
+  cloud.positions.resize(image.range_m.size());
+  std::size_t count = 0;
+  // Row by row: the occupied cells are picked out first, so that the arithmetic is one SIMD loop.
+  std::vector<float> range_m(static_cast<std::size_t>(image.columns));
+  std::vector<int> column_of(range_m.size());
   for (int row = 0; row < image.rows; ++row) {
-    const double cos_e = grid.cos_elevation(image.first_row + row),
-                 sin_e = grid.sin_elevation(image.first_row + row);
+    const float* ranges = &image.range_m[image.index(row, 0)];
+    std::size_t occupied = 0;
     for (int column = 0; column < image.columns; ++column) {
-      const double range_m = image.at(row, column);
-      if (!(range_m > 0)) continue;
-      const double across_m = range_m * cos_e;
-      const auto [x, y, z] = motion.apply_inverse(across_m * grid.cos_azimuth(column),
-                                                  across_m * grid.sin_azimuth(column), range_m * sin_e);
-      cloud.positions.push_back({static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)});
+      range_m[occupied] = ranges[column];
+      column_of[occupied] = column;
+      occupied += ranges[column] > 0 ? 1 : 0;
     }
+    const double cos_e = grid.cos_elevation(image.first_row + row);
+    const double sin_e = grid.sin_elevation(image.first_row + row);
+    Point3f* points = &cloud.positions[count];
+    for (std::size_t i = 0; i < occupied; ++i) {
+      const double across_m = range_m[i] * cos_e;
+      const auto [x, y, z] =
+          motion.apply_inverse(across_m * grid.cos_azimuth(column_of[i]),
+                               across_m * grid.sin_azimuth(column_of[i]), range_m[i] * sin_e);
+      points[i] = {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+    }
+    count += occupied;
   }
+  cloud.positions.resize(count);
   return cloud;
 }
 

@@ -25,7 +25,7 @@ struct ProjectedPoint {
   float range_m = 0;
 };
 std::vector<ProjectedPoint> project_points(const AngularGrid& grid, const PointCloud& cloud,
-                                           const Pose& T_key_sensor);
+                                           const Pose& T_key_sensor, int threads = 1);
 
 // Nearest point of each cell. Error resource_limit when the used band of rows has more than kMaxCells cells.
 Result<RangeImage> range_image_of(const AngularGrid& grid, const std::vector<ProjectedPoint>& points,

@@ -55,58 +55,48 @@ class ResidualCoder {
     return range > 0 ? range : kNearest_m;  // NaN from damaged bytes, too
   }
 
+  // Predicted range, and how far apart the ranges around the cell are (context for the residual's models).
   double predict(const RangeImage& decoded, int row, int column, unsigned& context) const {
-    const auto known = [&](int r, int c) -> double {
-      if (r < 0 || r >= decoded.rows) return 0;
-      if (c < 0) c += decoded.columns;
-      if (c >= decoded.columns) c -= decoded.columns;
-      return decoded.at(r, c);
-    };
-    const double left = known(row, column - 1), up = known(row - 1, column);
-    const double right = known(row, column + 1), down = known(row + 1, column);
-    const double up_left = known(row - 1, column - 1), up_right = known(row - 1, column + 1);
-    double key_range = 0;
-    if (key_ != nullptr) {
-      const int key_row = row + decoded.first_row - key_->first_row;
-      if (key_row >= 0 && key_row < key_->rows) key_range = key_->at(key_row, column);
-    }
-    double sum = 0, weight = 0, lowest = 1e30, highest = 0;
-    const auto take = [&](double range, double w) {
-      if (!(range > 0)) return;
-      sum += w * range;
-      weight += w;
-      lowest = std::min(lowest, range);
-      highest = std::max(highest, range);
+    const int before = column > 0 ? column - 1 : decoded.columns - 1;
+    const int after = column + 1 < decoded.columns ? column + 1 : 0;
+    const float* here = &decoded.range_m[decoded.index(row, 0)];
+    const float* above = row > 0 ? here - decoded.columns : nullptr;
+    const float* below = row + 1 < decoded.rows ? here + decoded.columns : nullptr;
+    const float left = here[before];
+
+    float lowest = 1e30F, highest = 0, sum = 0, weight = 0;
+    const auto take = [&](float range_m, float w) {
+      const bool known = range_m > 0;
+      lowest = known && range_m < lowest ? range_m : lowest;
+      highest = range_m > highest ? range_m : highest;
+      sum += w * range_m;  // unknown ranges are 0
+      weight += known ? w : 0.0F;
     };
     take(left, 2);
-    take(right, 2);
-    take(up, 1);
-    take(down, 1);
-    take(up_left, 0.5);
-    take(up_right, 0.5);
-    take(key_range, 2);
-    if (weight == 0) {
-      take(known(row, column - 2), 1);
-      take(known(row - 2, column), 1);
+    take(here[after], 2);  // cells to the right and below are known where planes hold them
+    if (above != nullptr) {
+      take(above[column], 1);
+      take(above[before], 0.5F);
+      take(above[after], 0.5F);
+    }
+    if (below != nullptr) take(below[column], 1);
+    if (key_ != nullptr) {
+      const int key_row = row + decoded.first_row - key_->first_row;
+      if (key_row >= 0 && key_row < key_->rows) take(key_->at(key_row, column), 2);
     }
     if (weight == 0) {
-      context = kContexts - 1;
-      return 10.0;
+      context = kNothingKnown;
+      return kUsualRange_m;
     }
-    const double spread = (highest - lowest) / step_m_;
-    context = spread < 0.25  ? 0
-              : spread < 0.5 ? 1
-              : spread < 1   ? 2
-              : spread < 2   ? 3
-              : spread < 4   ? 4
-              : spread < 10  ? 5
-              : spread < 30  ? 6
-                             : 7;
-    if (left > 0) return left;
-    return sum / weight;
+    const double spread_steps = (highest - lowest) / step_m_;
+    context = 0;
+    for (const double border : {0.25, 0.5, 1.0, 2.0, 4.0, 10.0, 30.0}) context += spread_steps >= border;
+    return left > 0 ? left : sum / weight;
   }
 
   static constexpr float kNearest_m = 0.001f;
+  static constexpr double kUsualRange_m = 10;
+  static constexpr unsigned kNothingKnown = 8;
   static constexpr unsigned kContexts = 9;
 
   Coder& coder_;

@@ -24,6 +24,26 @@ double dot(const Vector3& a, const Vector3& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+// Lowest occupied cell of the first column that has one, walking from `from` by `step` up to `end`.
+GridCell first_from_side(const RangeImage& image, int row_begin, int row_end, int from, int end, int step) {
+  for (int column = from; column != end; column += step) {
+    for (int row = row_end - 1; row >= row_begin; --row) {
+      if (image.occupied(row, column)) return {row, column};
+    }
+  }
+  return {-1, -1};
+}
+
+// The occupied cell of a row nearest to the middle of [left, right]; column -1 when there is none.
+int nearest_to_middle(const RangeImage& image, int row, int left, int right) {
+  const int middle = (left + right) / 2;
+  for (int away = 0; middle - away >= left || middle + away <= right; ++away) {
+    if (middle - away >= left && image.occupied(row, middle - away)) return middle - away;
+    if (middle + away <= right && image.occupied(row, middle + away)) return middle + away;
+  }
+  return -1;
+}
+
 }  // namespace
 
 RunAnchors choose_anchors(const RangeImage& image, const TileLayout& layout, const PlaneRun& run) {
@@ -31,50 +51,36 @@ RunAnchors choose_anchors(const RangeImage& image, const TileLayout& layout, con
   const int column_begin = layout.first_column(run.first_tile);
   const int column_end = layout.end_column(run.end_tile - 1, image.columns);
 
-  GridCell left{-1, -1}, right{-1, -1};
-  for (int column = column_begin; column < column_end; ++column) {
-    for (int row = row_end - 1; row >= row_begin; --row) {
-      if (!image.occupied(row, column)) continue;
-      if (left.column < 0) left = {row, column};
-      if (right.column != column) right = {row, column};  // the lowest cell of the last occupied column
-    }
-  }
   RunAnchors anchors;
+  const GridCell left = first_from_side(image, row_begin, row_end, column_begin, column_end, 1);
   if (left.column < 0) return anchors;
-  const auto in_grid = [&](GridCell c) { return GridCell{c.row + image.first_row, c.column}; };
-  anchors.cells[0] = in_grid(left);
-  anchors.count = 1;
+  const GridCell right = first_from_side(image, row_begin, row_end, column_end - 1, column_begin - 1, -1);
+  const auto add = [&](int row, int column) {
+    anchors.cells[anchors.count++] = {row + image.first_row, column};
+  };
+  add(left.row, left.column);
   if (left.column == right.column) {
-    // One column: take its highest cell as the second anchor; the third is missing as for any line.
-    for (int row = row_begin; row < left.row; ++row) {
-      if (!image.occupied(row, left.column)) continue;
-      anchors.cells[1] = in_grid({row, left.column});
-      anchors.count = 2;
-      break;
+    // One column: its highest cell is the second anchor; the third is missing as for any line.
+    for (int row = row_begin; row < left.row && anchors.count == 1; ++row) {
+      if (image.occupied(row, left.column)) add(row, left.column);
     }
     return anchors;
   }
-  anchors.cells[1] = in_grid(right);
-  anchors.count = 2;
+  add(right.row, right.column);
 
-  // Farthest from the line left-right, in cells; among equals the one nearest to the middle.
   const int dc = right.column - left.column, dr = right.row - left.row;
-  long best_area = 0;
-  int best_off_middle = 0;
+  int farthest = 0;
+  GridCell third;
   for (int row = row_begin; row < row_end; ++row) {
-    for (int column = column_begin; column < column_end; ++column) {
-      if (!image.occupied(row, column)) continue;
-      const long area = std::labs(static_cast<long>(dc) * (row - left.row) -
-                                  static_cast<long>(dr) * (column - left.column));
-      const int off_middle = std::abs(2 * column - left.column - right.column);
-      if (area > best_area || (area == best_area && area > 0 && off_middle < best_off_middle)) {
-        best_area = area;
-        best_off_middle = off_middle;
-        anchors.cells[2] = in_grid({row, column});
-        anchors.count = 3;
-      }
+    const int column = nearest_to_middle(image, row, left.column, right.column);
+    if (column < 0) continue;
+    const int off_line = std::abs(dc * (row - left.row) - dr * (column - left.column));
+    if (off_line > farthest) {
+      farthest = off_line;
+      third = {row, column};
     }
   }
+  if (farthest > 0) add(third.row, third.column);
   return anchors;
 }
 

@@ -20,8 +20,9 @@ struct RunAnchors {
 // Anchor ranges are at most this many steps, so that level arithmetic stays within 32 bits.
 inline constexpr std::int32_t kMaxLevel = 1 << 28;
 
-// Chosen from the occupancy alone, which the decoder knows: the leftmost and the rightmost cell, and the one
-// farthest from the line between them. `occupied` is the frame's mask, one byte a cell.
+// Chosen from the occupancy alone, which the decoder knows: the leftmost and the rightmost cell (the lowest
+// of their columns), and of the cells nearest to the middle in each row the one farthest from the line
+// between them.
 RunAnchors choose_anchors(const RangeImage& image, const TileLayout& layout, const PlaneRun& run);
 
 // The plane through the anchors at levels * step_m.

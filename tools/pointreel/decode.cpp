@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "base/parallel.h"
 #include "common/packet_batches.h"
 #include "pointreel/console.h"
 #include "pointreel/exit_code.h"
@@ -87,20 +88,23 @@ class SweepFiles {
 
 // Decodes a batch and writes the wanted sweeps. False when writing failed.
 bool decode_batch(Decoder& decoder, std::span<const Packet> batch, const FrameRange& wanted,
-                  const SweepFiles& files, Written& written) {
-  for (const auto& sweep : decoder.decode(batch)) {
-    if (!sweep) {
-      print_error(sweep.error());
+                  const SweepFiles& files, int threads, Written& written) {
+  const auto sweeps = decoder.decode(batch);
+  std::vector<Result<void>> files_written(sweeps.size());
+  parallel_for(sweeps.size(), threads, [&](std::size_t i) {
+    if (sweeps[i] && wanted.contains(sweeps[i]->frame)) files_written[i] = files.write(*sweeps[i]);
+  });
+  for (std::size_t i = 0; i < sweeps.size(); ++i) {
+    if (!sweeps[i]) {
+      print_error(sweeps[i].error());
       written.lost_some = true;
-      continue;
-    }
-    if (!wanted.contains(sweep->frame)) continue;
-    if (auto done = files.write(*sweep); !done) {
-      print_error(done.error());
+    } else if (!files_written[i]) {
+      print_error(files_written[i].error());
       return false;
+    } else if (wanted.contains(sweeps[i]->frame)) {
+      ++written.frames;
+      written.points += sweeps[i]->cloud.size();
     }
-    ++written.frames;
-    written.points += sweep->cloud.size();
   }
   return true;
 }
@@ -155,13 +159,14 @@ int run(const DecodeArguments& arguments) {
     return kFailed;
   }
 
+  const int threads = resolve_threads(arguments.threads);
   const SweepFiles files(arguments.output, *format, arguments.force);
   Written written;
   const auto start = std::chrono::steady_clock::now();
   if (arguments.frames.empty() || arguments.input == "-") {
     PacketBatches batches(reader);
     for (auto batch = batches.next(); !batch.empty(); batch = batches.next()) {
-      if (!decode_batch(*decoder, batch, *wanted, files, written)) return kFailed;
+      if (!decode_batch(*decoder, batch, *wanted, files, threads, written)) return kFailed;
     }
     if (reader.fault()) {
       print_error(*reader.fault());
@@ -173,7 +178,7 @@ int run(const DecodeArguments& arguments) {
       print_error(packets.error());
       return kFailed;
     }
-    if (!decode_batch(*decoder, *packets, *wanted, files, written)) return kFailed;
+    if (!decode_batch(*decoder, *packets, *wanted, files, threads, written)) return kFailed;
   }
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 

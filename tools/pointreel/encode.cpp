@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/parallel.h"
 #include "common/motion_input.h"
 #include "common/quality.h"
 #include "pointreel/console.h"
@@ -106,7 +107,7 @@ struct EncodeTotals {
 // it have been written.
 std::optional<Error> encode_sweeps(Encoder& encoder, ReelWriter& writer,
                                    const std::vector<std::filesystem::path>& inputs,
-                                   const std::vector<Pose>& poses, EncodeTotals& totals) {
+                                   const std::vector<Pose>& poses, int threads, EncodeTotals& totals) {
   using Clock = std::chrono::steady_clock;
   const auto ms_since = [](Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -123,21 +124,27 @@ std::optional<Error> encode_sweeps(Encoder& encoder, ReelWriter& writer,
     if (!packets->empty()) pending_ms = 0;
     return {};
   };
+  // As many files at once as there are threads: reading takes about as long as a tenth of encoding.
+  const auto readers = static_cast<std::size_t>(threads);
   std::optional<Error> input_error;
-  for (std::size_t i = 0; i < inputs.size() && !input_error; ++i) {
-    auto cloud = read_cloud(inputs[i]);
-    if (!cloud) {
-      input_error = cloud.error();
-      break;
+  for (std::size_t begin = 0; begin < inputs.size() && !input_error; begin += readers) {
+    std::vector<Result<PointCloud>> clouds(std::min(readers, inputs.size() - begin), PointCloud{});
+    parallel_for(clouds.size(), threads, [&](std::size_t i) { clouds[i] = read_cloud(inputs[begin + i]); });
+    for (std::size_t i = 0; i < clouds.size() && !input_error; ++i) {
+      if (!clouds[i]) {
+        input_error = clouds[i].error();
+        break;
+      }
+      if (begin + i == 0) {
+        for (const Field& field : clouds[i]->fields) totals.fields_left_out.push_back(field.name);
+      }
+      const auto start = Clock::now();
+      const auto packets =
+          encoder.encode(*std::move(clouds[i]), poses.empty() ? std::optional<Pose>{} : poses[begin + i]);
+      pending_ms += ms_since(start);
+      if (const auto error = write(packets)) return error;
+      progress.advance_to(begin + i + 1);
     }
-    if (i == 0) {
-      for (const Field& field : cloud->fields) totals.fields_left_out.push_back(field.name);
-    }
-    const auto start = Clock::now();
-    const auto packets = encoder.encode(*std::move(cloud), poses.empty() ? std::optional<Pose>{} : poses[i]);
-    pending_ms += ms_since(start);
-    if (const auto error = write(packets)) return error;
-    progress.advance_to(i + 1);
   }
   const auto start = Clock::now();
   const auto packets = encoder.finish();
@@ -245,7 +252,8 @@ int run(const EncodeArguments& arguments) {
   auto writer = ReelWriter::create(to_stdout ? std::cout : file, encoder->header());
   EncodeTotals totals;
   const std::optional<Error> error =
-      writer ? encode_sweeps(*encoder, *writer, *inputs, *poses, totals) : std::optional(writer.error());
+      writer ? encode_sweeps(*encoder, *writer, *inputs, *poses, resolve_threads(arguments.threads), totals)
+             : std::optional(writer.error());
   if (error) print_error(*error);
   if (totals.frames == 0) {
     if (!to_stdout) std::filesystem::remove(arguments.output);
