@@ -49,8 +49,8 @@ class ReelWriter {
 // How the packets of a reel end.
 enum class ReelEnding : std::uint8_t {
   open,      // not reached yet
-  complete,  // by an index, as ReelWriter::finish() leaves it
-  cut_off,   // by the end of the bytes or a damaged packet: data are missing
+  complete,  // by an index that fits the packets, as ReelWriter::finish() leaves it
+  cut_off,   // by the end of the bytes, a damaged packet or an index that does not fit: data may be missing
 };
 
 class ReelReader {
@@ -78,6 +78,7 @@ class ReelReader {
   ReelReader(std::istream& stream, std::string name) : stream_(&stream), name_(std::move(name)) {}
   std::vector<std::uint8_t> read_bytes(std::size_t count);
   void end_with(Error error);
+  void end_at_index(std::vector<std::uint8_t> bytes, std::uint64_t index_offset);
   std::optional<std::vector<ReelIndexEntry>> stored_index();
   bool rewind_to(std::uint64_t offset);
 

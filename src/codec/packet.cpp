@@ -77,7 +77,7 @@ Result<Packet> parse_packet(std::span<const std::uint8_t> bytes) {
   if ((packet.kind == FrameKind::key) != (packet.reference_frame == packet.frame)) {
     return error_at(ErrorCode::corrupt, 16, "packet kind and reference frame contradict each other");
   }
-  if (packet.points_out > packet.points_in || packet.non_finite > packet.points_in) {
+  if (std::uint64_t{packet.points_out} + packet.non_finite > packet.points_in) {
     return error_at(ErrorCode::corrupt, 20, "packet counts more points out than in");
   }
   packet.payload.assign(payload.begin(), payload.end());

@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "codec/method.h"
 #include "codec/relative_pose.h"
+#include "codec/wire.h"
 #include "planes/frame_coding.h"
 #include "planes/projection.h"
 
@@ -86,6 +87,7 @@ class PlanesDecoder final : public Decoder::Implementation {
 
 Result<std::unique_ptr<Decoder::Implementation>> make_planes_decoder(const StreamHeader& header,
                                                                      const Runtime& runtime) {
+  if (const auto valid = validate(header); !valid) return valid.error();
   auto grid = AngularGrid::create(header.planes.azimuth_step_rad, header.planes.elevation_step_rad);
   if (!grid) return grid.error();
   return std::unique_ptr<Decoder::Implementation>(
@@ -96,6 +98,7 @@ Result<std::unique_ptr<Decoder::Implementation>> make_planes_decoder(const Strea
 // belongs to the first of its nearest points.
 Result<std::vector<std::int64_t>> pair_points(const StreamHeader& header, const PointCloud& original,
                                               const DecodedSweep& decoded) {
+  if (const auto valid = validate(header); !valid) return valid.error();
   const auto grid = AngularGrid::create(header.planes.azimuth_step_rad, header.planes.elevation_step_rad);
   if (!grid) return grid.error();
   const auto projected = project_points(*grid, original, decoded.T_key_sensor);

@@ -27,11 +27,13 @@ inline bool tile_occupied(const RangeImage& image, const TileLayout& layout, int
   return !all_cells(image, layout, tile_row, tile, tile + 1, [](int, int, float) { return false; });
 }
 
-// Every cell within the threshold; a plane behind a ray has a negative range there and fails.
+// Every cell within the threshold and in front of the sensor: nearer than the threshold, a plane behind the
+// ray would be within it, too, but decodes to no range.
 inline bool plane_holds(const AngularGrid& grid, const RangeImage& image, const TileLayout& layout,
                         int tile_row, int first_tile, int end_tile, const Plane& plane, float threshold_m) {
   return all_cells(image, layout, tile_row, first_tile, end_tile, [&](int row, int column, float range_m) {
-    return std::fabs(plane_range(grid, plane, image.first_row + row, column) - range_m) <= threshold_m;
+    const float on_plane_m = plane_range(grid, plane, image.first_row + row, column);
+    return on_plane_m > 0 && std::fabs(on_plane_m - range_m) <= threshold_m;
   });
 }
 

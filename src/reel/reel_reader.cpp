@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <istream>
+#include <span>
 #include <string>
 
 #include "base/bytes.h"
@@ -10,6 +11,41 @@
 #include "reel/reel_layout.h"
 
 namespace pointreel {
+namespace {
+
+// Index and footer as ReelWriter::finish() leaves them, when checksum, sizes and place all agree.
+std::optional<std::vector<ReelIndexEntry>> parse_index(std::span<const std::uint8_t> bytes,
+                                                       std::uint64_t index_offset) {
+  if (bytes.size() < kIndexHeaderBytes + kChecksumBytes + kFooterBytes) return {};
+  const auto index_bytes = bytes.first(bytes.size() - kFooterBytes);
+  ByteReader reader(index_bytes);
+  const auto sync = reader.get<std::uint32_t>();
+  const auto count = reader.get<std::uint32_t>();
+  if (sync != kIndexSync ||
+      index_bytes.size() != kIndexHeaderBytes + std::uint64_t{count} * kIndexEntryBytes + kChecksumBytes) {
+    return {};
+  }
+  std::vector<ReelIndexEntry> entries(count);
+  std::uint64_t offset = kStreamHeaderBytes;
+  for (ReelIndexEntry& entry : entries) {
+    entry.frame = reader.get<std::uint32_t>();
+    entry.reference_frame = reader.get<std::uint32_t>();
+    entry.bytes = reader.get<std::uint32_t>();
+    entry.offset = offset;
+    offset += entry.bytes;
+  }
+  const auto sum = reader.get<std::uint32_t>();
+  ByteReader footer(bytes.last(kFooterBytes));
+  const auto stated_offset = footer.get<std::uint64_t>();
+  const auto magic = footer.get(kFooterMagic.size());
+  if (sum != XXH32(index_bytes.data(), index_bytes.size() - kChecksumBytes, 0) || offset != index_offset ||
+      stated_offset != index_offset || !std::equal(magic.begin(), magic.end(), kFooterMagic.begin())) {
+    return {};
+  }
+  return entries;
+}
+
+}  // namespace
 
 Result<ReelReader> ReelReader::open(std::istream& stream, std::string name) {
   ReelReader reader(stream, std::move(name));
@@ -25,7 +61,7 @@ std::optional<Packet> ReelReader::read_packet() {
   std::vector<std::uint8_t> bytes = read_bytes(kIndexHeaderBytes);
   const auto sync = ByteReader(bytes).get<std::uint32_t>();
   if (sync == kIndexSync) {
-    ending_ = ReelEnding::complete;
+    end_at_index(std::move(bytes), packet_offset);
     return {};
   }
   const auto end = [&](Error error) {
@@ -42,6 +78,26 @@ std::optional<Packet> ReelReader::read_packet() {
   auto packet = parse_packet(bytes);
   if (!packet) return end(packet.error());
   return *std::move(packet);
+}
+
+// Complete only if the index is whole and knows as many bytes of packets as were there: a packet that went
+// missing with all of its bytes leaves no other trace.
+void ReelReader::end_at_index(std::vector<std::uint8_t> bytes, std::uint64_t index_offset) {
+  const auto end = [&](ErrorCode code, const char* what) {
+    end_with({code, "index at byte " + std::to_string(index_offset) + ": " + what});
+  };
+  ByteReader reader(bytes);
+  reader.get<std::uint32_t>();
+  const auto count = reader.get<std::uint32_t>();
+  if (count > index_offset / (kPacketHeaderBytes + kChecksumBytes)) {
+    return end(ErrorCode::corrupt, "names more packets than there are");
+  }
+  const std::size_t missing = count * kIndexEntryBytes + kChecksumBytes + kFooterBytes;
+  const auto rest = read_bytes(missing);
+  if (!reader.ok() || rest.size() < missing) return end(ErrorCode::truncated, "the file ends within it");
+  bytes.insert(bytes.end(), rest.begin(), rest.end());
+  if (!parse_index(bytes, index_offset)) return end(ErrorCode::corrupt, "damaged, or packets are missing");
+  ending_ = ReelEnding::complete;
 }
 
 Result<ReelIndex> ReelReader::index() {
@@ -86,7 +142,7 @@ void ReelReader::end_with(Error error) {
   fault_ = Error{error.code, name_ + ": " + error.message};
 }
 
-// The index, when footer, checksum and sizes all agree with the file.
+// The index, found by the footer at the file's end.
 std::optional<std::vector<ReelIndexEntry>> ReelReader::stored_index() {
   stream_->clear();
   stream_->seekg(0, std::ios::end);
@@ -97,32 +153,12 @@ std::optional<std::vector<ReelIndexEntry>> ReelReader::stored_index() {
   const auto footer_bytes = read_bytes(kFooterBytes);
   ByteReader footer(footer_bytes);
   const auto index_offset = footer.get<std::uint64_t>();
-  const auto magic = footer.get(kFooterMagic.size());
-  if (!footer.ok() || !std::equal(magic.begin(), magic.end(), kFooterMagic.begin())) return {};
-  if (index_offset < kStreamHeaderBytes || index_offset > footer_offset || !rewind_to(index_offset))
+  if (!footer.ok() || index_offset < kStreamHeaderBytes || index_offset > footer_offset ||
+      !rewind_to(index_offset))
     return {};
-
-  const auto bytes = read_bytes(static_cast<std::size_t>(footer_offset - index_offset));
-  if (bytes.size() < kIndexHeaderBytes + kChecksumBytes) return {};
-  ByteReader reader(bytes);
-  const auto sync = reader.get<std::uint32_t>();
-  const auto count = reader.get<std::uint32_t>();
-  if (sync != kIndexSync ||
-      bytes.size() != kIndexHeaderBytes + std::uint64_t{count} * kIndexEntryBytes + kChecksumBytes) {
-    return {};
-  }
-  std::vector<ReelIndexEntry> entries(count);
-  std::uint64_t offset = kStreamHeaderBytes;
-  for (ReelIndexEntry& entry : entries) {
-    entry.frame = reader.get<std::uint32_t>();
-    entry.reference_frame = reader.get<std::uint32_t>();
-    entry.bytes = reader.get<std::uint32_t>();
-    entry.offset = offset;
-    offset += entry.bytes;
-  }
-  const auto sum = reader.get<std::uint32_t>();
-  if (sum != XXH32(bytes.data(), bytes.size() - kChecksumBytes, 0) || offset != index_offset) return {};
-  return entries;
+  const auto bytes =
+      read_bytes(static_cast<std::size_t>(static_cast<std::uint64_t>(file_bytes) - index_offset));
+  return parse_index(bytes, index_offset);
 }
 
 bool ReelReader::rewind_to(std::uint64_t offset) {

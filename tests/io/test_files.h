@@ -1,50 +1,20 @@
-// Folders, files and clouds for the tests of src/io.
+// Files and clouds for the tests of src/io.
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <string_view>
 
 #include "pointreel/io.h"
+#include "support/expect_error.h"
+#include "support/temporary_folder.h"
 
 namespace pointreel {
-
-// A folder of its own, gone at the end of the test.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "pointreel_io_XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-
-  const std::filesystem::path& path() const { return path_; }
-
-  std::filesystem::path write(const std::filesystem::path& name, std::string_view bytes) const {
-    std::filesystem::create_directories((path_ / name).parent_path());
-    std::ofstream(path_ / name, std::ios::binary) << bytes;
-    return path_ / name;
-  }
-
- private:
-  std::filesystem::path path_;
-};
-
-inline std::string file_bytes(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 // The bytes of plain values, for building binary bodies by hand.
 template <class... T>
@@ -102,17 +72,6 @@ std::vector<T> values_of(const PointCloud& cloud, std::string_view name) {
     return {};
   }
   return *values;
-}
-
-// Checks the code and that the message holds every one of `parts`.
-template <class T>
-void expect_error(const Result<T>& result, ErrorCode code, std::initializer_list<std::string> parts) {
-  ASSERT_FALSE(result);
-  EXPECT_EQ(to_string(result.error().code), to_string(code)) << result.error().message;
-  for (const std::string& part : parts) {
-    EXPECT_NE(result.error().message.find(part), std::string::npos)
-        << "no '" << part << "' in: " << result.error().message;
-  }
 }
 
 }  // namespace pointreel

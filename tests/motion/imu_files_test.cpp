@@ -2,7 +2,8 @@
 #include <rapidcheck/gtest.h>
 
 #include "pointreel/motion.h"
-#include "temporary_folder.h"
+#include "support/expect_error.h"
+#include "support/temporary_folder.h"
 
 namespace pointreel {
 namespace {
@@ -39,19 +40,19 @@ RC_GTEST_PROP(ImuCsv, ComesBackAsWritten, ()) {
 
 TEST(ImuCsv, HeaderCommentsAndBlanksAreOptional) {
   const TemporaryFolder folder;
-  const auto samples = read_imu_csv(folder.file("imu.csv",
-                                                "# made by hand\n"
-                                                "time [s], acc x, acc y, acc z, gyro x, gyro y, gyro z\r\n"
-                                                "0, 1, 2, 3, 4, 5, 6\r\n"
-                                                "# in between\n"
-                                                "0.01,\t1,2,3,4,5,-6.5e-1\n"));
+  const auto samples = read_imu_csv(folder.write("imu.csv",
+                                                 "# made by hand\n"
+                                                 "time [s], acc x, acc y, acc z, gyro x, gyro y, gyro z\r\n"
+                                                 "0, 1, 2, 3, 4, 5, 6\r\n"
+                                                 "# in between\n"
+                                                 "0.01,\t1,2,3,4,5,-6.5e-1\n"));
   ASSERT_TRUE(samples) << samples.error().message;
   ASSERT_EQ(samples->size(), 2u);
   EXPECT_EQ((*samples)[0].acceleration_mps2, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ((*samples)[1].rotation_rate_radps, Eigen::Vector3d(4, 5, -0.65));
   EXPECT_FALSE((*samples)[0].velocity_mps);
 
-  const auto bare = read_imu_csv(folder.file("bare.csv", "0,1,2,3,4,5,6,7,8,9\n"));
+  const auto bare = read_imu_csv(folder.write("bare.csv", "0,1,2,3,4,5,6,7,8,9\n"));
   ASSERT_TRUE(bare) << bare.error().message;
   EXPECT_EQ(bare->front().velocity_mps, Eigen::Vector3d(7, 8, 9));
 }
@@ -72,9 +73,9 @@ TEST(ImuCsv, RejectsMalformedFiles) {
       {"t,wx,wy,wz,ax,ay,az\n0,1,2,3,4,5,6\n", "imu.csv:1: column wx"},
   };
   for (const auto& [text, complaint] : cases) {
-    expect_error(read_imu_csv(folder.file("imu.csv", text)), ErrorCode::corrupt, complaint);
+    expect_error(read_imu_csv(folder.write("imu.csv", text)), ErrorCode::corrupt, complaint);
   }
-  expect_error(read_imu_csv(folder.file("imu.csv", "t,ax,ay,az,wx,wy,wz\n")), ErrorCode::truncated,
+  expect_error(read_imu_csv(folder.write("imu.csv", "t,ax,ay,az,wx,wy,wz\n")), ErrorCode::truncated,
                "holds no IMU samples");
   expect_error(read_imu_csv(folder.path() / "none.csv"), ErrorCode::io_error, "none.csv");
 }

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "pointreel/motion.h"
-#include "temporary_folder.h"
+#include "support/expect_error.h"
 
 namespace pointreel {
 namespace {

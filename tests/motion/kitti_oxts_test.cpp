@@ -6,7 +6,8 @@
 #include <sstream>
 
 #include "pointreel/motion.h"
-#include "temporary_folder.h"
+#include "support/expect_error.h"
+#include "support/temporary_folder.h"
 
 namespace pointreel {
 namespace {
@@ -41,12 +42,12 @@ constexpr const char* kTimes =
 // drive/oxts with three samples, as KITTI lays it out below the day's calibration files.
 struct Drive {
   Drive() {
-    folder.file("day/drive/oxts/timestamps.txt", kTimes);
+    folder.write("day/drive/oxts/timestamps.txt", kTimes);
     for (const char* name : {"0000000000", "0000000001", "0000000002"}) set_data(name, to_line({}));
   }
   fs::path oxts() const { return folder.path() / "day/drive/oxts"; }
   void set_data(const std::string& name, const std::string& text) const {
-    folder.file("day/drive/oxts/data/" + name + ".txt", text);
+    folder.write("day/drive/oxts/data/" + name + ".txt", text);
   }
   TemporaryFolder folder;
 };
@@ -96,7 +97,7 @@ TEST(KittiOxts, CalibrationTurnsAxesAndAddsTheLever) {
   const std::string calibration = "calib_time: 25-May-2012 16:47:16\nR: 0 1 0 -1 0 0 0 0 1\nT: 0 2 0\n";
   for (const char* place : {"day/drive", "day", "."}) {
     const Drive drive;
-    drive.folder.file(fs::path(place) / "calib_imu_to_velo.txt", calibration);
+    drive.folder.write(fs::path(place) / "calib_imu_to_velo.txt", calibration);
     Reading reading;
     reading.velocity_level_mps = Vec3(10, 0, 0);
     reading.acceleration_mps2 = Vec3(1, 0, 9.81);
@@ -157,7 +158,7 @@ TEST(KittiOxts, RejectsMalformedFolders) {
   };
   for (const auto& [file, text, code, complaint] : cases) {
     const Drive drive;
-    drive.folder.file(fs::path("day") / file, text);
+    drive.folder.write(fs::path("day") / file, text);
     expect_error(read_kitti_oxts(drive.oxts()), code, complaint);
   }
 }
@@ -165,7 +166,7 @@ TEST(KittiOxts, RejectsMalformedFolders) {
 TEST(KittiOxts, RejectsMissingParts) {
   const TemporaryFolder folder;
   expect_error(read_kitti_oxts(folder.path()), ErrorCode::io_error, "timestamps.txt");
-  folder.file("timestamps.txt", kTimes);
+  folder.write("timestamps.txt", kTimes);
   expect_error(read_kitti_oxts(folder.path()), ErrorCode::io_error, "data: cannot be listed");
   fs::create_directory(folder.path() / "data");
   expect_error(read_kitti_oxts(folder.path()), ErrorCode::truncated, "holds no .txt files");

@@ -3,7 +3,8 @@
 #include <cstdlib>
 
 #include "pointreel/motion.h"
-#include "temporary_folder.h"
+#include "support/expect_error.h"
+#include "support/temporary_folder.h"
 
 namespace pointreel {
 namespace {
@@ -34,10 +35,10 @@ TEST(KittiPoses, ComeBackAsWritten) {
 
 TEST(KittiPoses, ReadTheUsualVariations) {
   const TemporaryFolder folder;
-  const auto path = folder.file("poses.txt",
-                                "\xEF\xBB\xBF# a comment\r\n\r\n"
-                                "  1.0e+00 0 0 +5 \t 0 1 0 -6 0 0 1 7\r\n" +
-                                    std::string("1 0 0 0 0 1 0 0 0 0 1 0"));
+  const auto path = folder.write("poses.txt",
+                                 "\xEF\xBB\xBF# a comment\r\n\r\n"
+                                 "  1.0e+00 0 0 +5 \t 0 1 0 -6 0 0 1 7\r\n" +
+                                     std::string("1 0 0 0 0 1 0 0 0 0 1 0"));
   const auto poses = read_kitti_poses(path);
   ASSERT_TRUE(poses) << poses.error().message;
   ASSERT_EQ(poses->size(), 2u);
@@ -46,7 +47,7 @@ TEST(KittiPoses, ReadTheUsualVariations) {
 
 TEST(KittiPoses, RoundedMatricesBecomeRotations) {
   const TemporaryFolder folder;
-  const auto poses = read_kitti_poses(folder.file("poses.txt", "0.866 -0.5 0 1 0.5 0.866 0 2 0 0 1 3\n"));
+  const auto poses = read_kitti_poses(folder.write("poses.txt", "0.866 -0.5 0 1 0.5 0.866 0 2 0 0 1 3\n"));
   ASSERT_TRUE(poses) << poses.error().message;
   const Eigen::Matrix3d R = poses->front().linear();
   EXPECT_TRUE((R.transpose() * R).isIdentity(1e-14));
@@ -74,7 +75,7 @@ TEST(KittiPoses, RejectWhatIsNoPose) {
       {"1 0 0.1 0 0 1 0 0 0 0 1 0\n", "not a rotation"},  // sheared
   };
   for (const auto& [line, complaint] : cases) {
-    const auto path = folder.file("poses.txt", kIdentity + std::string(line));
+    const auto path = folder.write("poses.txt", kIdentity + std::string(line));
     expect_error(read_kitti_poses(path), ErrorCode::corrupt, complaint);
   }
 }
@@ -83,11 +84,12 @@ TEST(KittiPoses, RejectUnreadableFiles) {
   const TemporaryFolder folder;
   expect_error(read_kitti_poses(folder.path() / "none.txt"), ErrorCode::io_error, "none.txt");
   expect_error(read_kitti_poses(folder.path()), ErrorCode::io_error, folder.path().string());
-  expect_error(read_kitti_poses(folder.file("empty.txt", "")), ErrorCode::truncated, "empty.txt");
-  expect_error(read_kitti_poses(folder.file("comment.txt", "# none\n")), ErrorCode::truncated, "comment.txt");
-  expect_error(read_kitti_poses(folder.file("binary", std::string(1 << 20, '\1'))), ErrorCode::corrupt,
+  expect_error(read_kitti_poses(folder.write("empty.txt", "")), ErrorCode::truncated, "empty.txt");
+  expect_error(read_kitti_poses(folder.write("comment.txt", "# none\n")), ErrorCode::truncated,
+               "comment.txt");
+  expect_error(read_kitti_poses(folder.write("binary", std::string(1 << 20, '\1'))), ErrorCode::corrupt,
                "binary:1: the line is longer");
-  expect_error(read_kitti_poses(folder.file("nul", kIdentity + std::string("1 0\0 0", 6))),
+  expect_error(read_kitti_poses(folder.write("nul", kIdentity + std::string("1 0\0 0", 6))),
                ErrorCode::corrupt, "nul:2:");
 }
 
@@ -103,10 +105,10 @@ TEST(KittiPoses, FailedWritesSaySoAndLeaveNothing) {
 
 TEST(TumPoses, AreReadWithTheirTimes) {
   const TemporaryFolder folder;
-  const auto poses = read_tum_poses(folder.file("tum.txt",
-                                                "# time tx ty tz qx qy qz qw\n"
-                                                "1305031102.1758 1 2 3 0 0 0 1\n"
-                                                "1305031102.2758 4 5 6 0 0 0.7071 0.7071\n"));
+  const auto poses = read_tum_poses(folder.write("tum.txt",
+                                                 "# time tx ty tz qx qy qz qw\n"
+                                                 "1305031102.1758 1 2 3 0 0 0 1\n"
+                                                 "1305031102.2758 4 5 6 0 0 0.7071 0.7071\n"));
   ASSERT_TRUE(poses) << poses.error().message;
   ASSERT_EQ(poses->size(), 2u);
   EXPECT_EQ((*poses)[0].time_s, 1305031102.1758);
@@ -130,10 +132,10 @@ TEST(TumPoses, RejectWhatIsNoPose) {
       {"0.5 0 0 0 0 0 0 1\n", "tum.txt:2: the time is not after"},
   };
   for (const auto& [line, complaint] : cases) {
-    const auto path = folder.file("tum.txt", "1 0 0 0 0 0 0 1\n" + std::string(line));
+    const auto path = folder.write("tum.txt", "1 0 0 0 0 0 0 1\n" + std::string(line));
     expect_error(read_tum_poses(path), ErrorCode::corrupt, complaint);
   }
-  expect_error(read_tum_poses(folder.file("tum.txt", "\n")), ErrorCode::truncated, "holds no poses");
+  expect_error(read_tum_poses(folder.write("tum.txt", "\n")), ErrorCode::truncated, "holds no poses");
 }
 
 TEST(KittiPoses, OfRealDrivesAreOneASweep) {

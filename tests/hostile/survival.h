@@ -1,0 +1,108 @@
+// Reads and decodes any bytes as the tool does, and checks that nothing worse than an Error comes of it.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "common/packet_batches.h"
+#include "support/clouds.h"
+#include "support/codec_round_trip.h"
+#include "support/reels.h"
+
+namespace pointreel {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool kSanitized = true;  // slower, and with memory of its own
+#else
+inline constexpr bool kSanitized = false;
+#endif
+
+// A few seconds each at most in release; a hang is what this is to find.
+inline constexpr double kMaxSeconds = kSanitized ? 150 : 15;
+inline constexpr long kMaxResident_kB = 1 << 20;
+
+struct Outcome {
+  bool opened = false;
+  std::size_t sweeps = 0, errors = 0;
+  ReelEnding ending = ReelEnding::open;
+
+  bool undamaged() const { return opened && errors == 0 && ending == ReelEnding::complete; }
+};
+
+inline void expect_valid(const Packet& packet, const DecodedSweep& sweep) {
+  EXPECT_EQ(sweep.frame, packet.frame);
+  EXPECT_EQ(sweep.cloud.size(), packet.points_out);
+  EXPECT_EQ(sweep.cloud.count_non_finite(), 0u);
+  EXPECT_TRUE(sweep.T_key_sensor.matrix().allFinite());
+}
+
+inline Outcome decode_reel(const std::string& bytes) {
+  Outcome outcome;
+  std::istringstream stream(bytes);
+  auto reader = ReelReader::open(stream, "hostile.reel");
+  if (!reader) {
+    EXPECT_FALSE(reader.error().message.empty());
+    return outcome;
+  }
+  auto decoder = Decoder::create(reader->header(), Runtime{2});
+  EXPECT_TRUE(decoder) << "a header that was parsed is one to decode with";
+  if (!decoder) return outcome;
+  outcome.opened = true;
+
+  PacketBatches batches(*reader);
+  for (auto batch = batches.next(); !batch.empty(); batch = batches.next()) {
+    const auto sweeps = decoder->decode(batch);
+    EXPECT_EQ(sweeps.size(), batch.size());
+    for (std::size_t i = 0; i < sweeps.size(); ++i) {
+      sweeps[i] ? ++outcome.sweeps : ++outcome.errors;
+      if (sweeps[i]) expect_valid(batch[i], *sweeps[i]);
+    }
+  }
+  outcome.ending = reader->ending();
+  EXPECT_NE(outcome.ending, ReelEnding::open);
+  EXPECT_EQ(outcome.ending == ReelEnding::cut_off, reader->fault().has_value());
+  // By the index, too: it must lead to packets or to errors.
+  if (const auto index = reader->index()) {
+    for (const ReelIndexEntry& entry : index->entries) {
+      EXPECT_TRUE(reader->seek(entry));
+      reader->read_packet();
+    }
+  }
+  return outcome;
+}
+
+// decode_reel within the limits of time and memory.
+inline Outcome survive(const std::string& bytes) {
+  const auto start = std::chrono::steady_clock::now();
+  const Outcome outcome = decode_reel(bytes);
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), kMaxSeconds);
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  if (!kSanitized) {
+    EXPECT_LT(usage.ru_maxrss, kMaxResident_kB);
+  }
+  return outcome;
+}
+
+// A short simulated drive in two groups of three.
+struct SampleReel {
+  EncoderOptions options;
+  StreamHeader header;
+  std::vector<Packet> packets;
+
+  explicit SampleReel(ResidualMode mode) {
+    options.planes.group = 3;
+    options.planes.azimuth_step_rad = options.planes.elevation_step_rad = 0.035;
+    options.planes.residual_mode = mode;
+    header = header_of(options);
+    const auto drive = simulated_drive(6);
+    packets = encode_all(clouds_of(drive), options, poses_of(drive));
+  }
+  std::string bytes() const { return reel_of(header, packets); }
+};
+
+}  // namespace pointreel
