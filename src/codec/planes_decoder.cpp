@@ -62,13 +62,15 @@ class PlanesDecoder final : public Decoder::Implementation {
 
   Result<DecodedSweep> sweep_of(const Packet& packet, const RangeImage& image,
                                 const Pose& T_key_sensor) const {
-    DecodedSweep sweep{packet.frame, cloud_of(grid_, image, T_key_sensor), T_key_sensor};
-    if (sweep.cloud.size() != packet.points_out) {
+    // Before the cloud is made, so that its size is the one the packet states.
+    const auto points =
+        std::count_if(image.range_m.begin(), image.range_m.end(), [](float range_m) { return range_m > 0; });
+    if (points != static_cast<std::ptrdiff_t>(packet.points_out)) {
       return in_frame(packet,
-                      {ErrorCode::corrupt, "it decodes to " + std::to_string(sweep.cloud.size()) +
-                                               " points instead of " + std::to_string(packet.points_out)});
+                      {ErrorCode::corrupt, "it decodes to " + std::to_string(points) + " points instead of " +
+                                               std::to_string(packet.points_out)});
     }
-    return sweep;
+    return DecodedSweep{packet.frame, cloud_of(grid_, image, T_key_sensor), T_key_sensor};
   }
 
   static Error in_frame(const Packet& packet, const Error& error) {

@@ -16,7 +16,7 @@ namespace pointreel {
 // counted as lost with the collided ones.
 inline constexpr double kFarthestPoint_m = 100'000;
 // Cells of a range image at most: bounds the memory that any input, or any bytes, can ask for.
-inline constexpr std::size_t kMaxCells = std::size_t{1} << 25;
+inline constexpr std::size_t kMaxCells = std::size_t{1} << 24;
 
 // Where each point of a cloud falls: its range after moving it by T_key_sensor, and its cell; range 0 =
 // nowhere.

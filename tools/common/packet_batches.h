@@ -1,6 +1,7 @@
 // Packets of a reel in batches that decode well in parallel: whole groups, several where groups are short.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -13,15 +14,20 @@ class PacketBatches {
  public:
   explicit PacketBatches(ReelReader& reader) : reader_(reader) {}
 
-  // The next batch, empty at the end. It starts with a key frame and holds no half group.
+  // The next batch, empty at the end. It starts with a key frame and holds no half group, unless that would
+  // be too much to have in memory at once; a Decoder takes the rest of a group in another batch as well.
   std::vector<Packet> next() {
     std::vector<Packet> batch;
+    std::uint64_t points = pending_ ? pending_->points_out : 0;
     if (pending_) batch.push_back(*std::exchange(pending_, std::nullopt));
-    while (auto packet = reader_.read_packet()) {
+    while (points < kMostPoints && batch.size() < kMostPackets) {
+      auto packet = reader_.read_packet();
+      if (!packet) break;
       if (packet->kind == FrameKind::key && batch.size() >= kEnough) {
         pending_ = std::move(packet);
         break;
       }
+      points += packet->points_out;
       batch.push_back(*std::move(packet));
     }
     return batch;
@@ -29,6 +35,8 @@ class PacketBatches {
 
  private:
   static constexpr std::size_t kEnough = 8;
+  static constexpr std::size_t kMostPackets = 255 + kEnough;  // a whole group always fits
+  static constexpr std::uint64_t kMostPoints = 20'000'000;    // 240 MB of decoded points
   ReelReader& reader_;
   std::optional<Packet> pending_;
 };

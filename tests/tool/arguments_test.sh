@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# Help, wrong arguments, missing inputs, and what may be overwritten.
+# shellcheck source-path=SCRIPTDIR
+source "$(dirname "$0")/support.sh" "$@"
+
+run 0 --help
+for verb in encode decode info verify simulate; do says stdout "  $verb "; done
+says stdout "Exit codes: 0 done, 1 failed, 2 wrong arguments, 3 finished with data loss"
+for verb in encode decode info verify simulate; do
+  run 0 "$verb" --help
+  is_empty stderr
+  matches_expected "help_$verb"
+done
+run 0 --version
+says stdout "pointreel "
+
+# 2: wrong arguments, naming the option.
+wrong() {
+  local named=$1
+  shift
+  run 2 "$@"
+  is_empty stdout
+  says stderr "$named"
+}
+wrong "subcommand"
+wrong "--output" encode drive
+wrong "--threshhold" encode drive -o a.reel --threshhold 1cm
+wrong "--threshold: '1 inch' is not a length" encode drive -o a.reel --threshold "1 inch"
+wrong "--threshold must lie in 0.001 to 10 m" encode drive -o a.reel --threshold 20m
+wrong "--group must lie in 1 to 255" encode drive -o a.reel --group 256
+wrong "--tile must lie in 2 to 16" encode drive -o a.reel --tile 1
+wrong "--azimuth-step: '1gon' is not an angle" encode drive -o a.reel --azimuth-step 1gon
+wrong "azimuth and elevation steps" encode drive -o a.reel --azimuth-step 10deg
+wrong "--residual-step" encode drive -o a.reel --residual-step 0
+wrong "--residual-step" encode drive -o a.reel --residual-step never
+wrong "--method" encode drive -o a.reel --method zip
+wrong "--threads" encode drive -o a.reel --threads -1
+wrong "--imu" encode drive -o a.reel --imu a.csv --poses b.txt
+wrong "--json and -o -" encode drive -o - --json
+wrong "--frames: '3:1' is not A:B" decode a.reel -o out --frames 3:1
+wrong "--frames: 'x' is not A:B" decode a.reel -o out --frames x
+wrong "docx" decode a.reel -o out --format docx
+wrong "--sensor: " simulate -o drive --sensor hdl-1
+wrong "--frames" simulate -o drive --frames 0
+wrong "INPUT" verify a.reel
+
+# 1: what is named is not there or no reel.
+failed() {
+  local named=$1
+  shift
+  run 1 "$@"
+  says stderr "$named"
+}
+echo "no reel at all, just some text that is longer than the header of one" >notes.txt
+failed "missing_folder" encode missing_folder -o a.reel
+[[ ! -e a.reel ]] || fail "an output without an input"
+failed "missing.reel: cannot open" info missing.reel
+failed "missing.reel: cannot open" decode missing.reel -o out
+failed "notes.txt: not a .reel stream" info notes.txt
+failed "notes.tx?x" verify missing.reel "notes.tx?x"
+mkdir empty
+failed "empty" encode empty -o a.reel
+
+# Outputs are overwritten with -f only.
+make_drive
+cp drive.reel before.reel
+failed "drive.reel: exists; -f overwrites it" encode drive -o drive.reel
+same_file drive.reel before.reel
+run 0 encode drive -o drive.reel --threshold 20cm -f
+cmp -s drive.reel before.reel && fail "-f did not overwrite"
+failed "velodyne: is not empty; -f overwrites" simulate -o drive --frames 1 --sensor vlp-16
+run 0 simulate -o drive --frames 1 --sensor vlp-16 -f
+failed "cannot open for writing" encode drive -o no/such/folder/a.reel
