@@ -12,7 +12,7 @@ namespace pointreel {
 namespace {
 
 constexpr double kSinCosError = 1e-15;
-constexpr double kArctangentError_rad = 2e-9;
+constexpr double kArctangentError_rad = 4e-7;
 
 double sin_cos_error(double angle_rad) {
   const SinCos own = sin_cos(angle_rad);
@@ -21,7 +21,8 @@ double sin_cos_error(double angle_rad) {
 
 // libm has -pi where y is a negative zero and x is negative; 0.0 added makes it positive.
 double arctangent_error_rad(double y, double x) {
-  return std::fabs(fast_atan2(y, x) - std::atan2(y + 0.0, x));
+  const auto float_y = static_cast<float>(y), float_x = static_cast<float>(x);
+  return std::fabs(fast_atan2(float_y, float_x) - std::atan2(float_y + 0.0, static_cast<double>(float_x)));
 }
 
 TEST(SinCos, IsExactToFifteenDigitsOverTwoTurnsEitherWay) {
@@ -46,7 +47,7 @@ TEST(SinCos, OfZeroIsExact) {
   EXPECT_EQ(sin_cos(0).cos, 1);
 }
 
-TEST(FastAtan2, IsWithinTwoNanoradiansAllAround) {
+TEST(FastAtan2, IsWithinItsErrorAllAround) {
   constexpr int kSteps = 200'000;
   double worst = 0;
   for (int i = -kSteps; i <= kSteps; ++i) {
@@ -59,7 +60,7 @@ TEST(FastAtan2, IsWithinTwoNanoradiansAllAround) {
 }
 
 TEST(FastAtan2, HoldsAtAxesAndDiagonals) {
-  const std::vector<double> small = {0, std::numeric_limits<double>::denorm_min(), 1e-300, 1e-12, 1e-3};
+  const std::vector<double> small = {0, std::numeric_limits<float>::denorm_min(), 1e-30, 1e-12, 1e-3};
   for (const double major : {1.0, -1.0}) {
     for (const double minor : small) {
       for (const double sign : {1.0, -1.0}) {
@@ -74,9 +75,9 @@ TEST(FastAtan2, HoldsAtAxesAndDiagonals) {
 
 TEST(FastAtan2, OfTheOriginIsZeroAndOfTheNegativeAxisPi) {
   EXPECT_EQ(fast_atan2(0, 0), 0);
-  EXPECT_EQ(fast_atan2(-0.0, 0.0), 0);
-  EXPECT_EQ(fast_atan2(0, -1), kPi);
-  EXPECT_EQ(fast_atan2(-0.0, -1), kPi);  // the interval is (-pi, pi], whatever the sign of the zero
+  EXPECT_EQ(fast_atan2(-0.0F, 0.0F), 0);
+  EXPECT_EQ(fast_atan2(0, -1), static_cast<float>(kPi));
+  EXPECT_EQ(fast_atan2(-0.0F, -1), static_cast<float>(kPi));  // the interval is (-pi, pi], whatever the sign of the zero
 }
 
 }  // namespace

@@ -24,7 +24,9 @@ TEST_P(GridSteps, TheRayOfACellFallsIntoThatCell) {
     for (int column = 0; column < columns; column += column_stride) {
       const Ray ray = centre_ray(grid, row, column);
       for (const double range_m : {0.01, 1.0, 1e4}) {
-        const GridCell cell = grid.cell_of(range_m * ray.x, range_m * ray.y, range_m * ray.z);
+        const GridCell cell =
+            grid.cell_of(static_cast<float>(range_m * ray.x), static_cast<float>(range_m * ray.y),
+                         static_cast<float>(range_m * ray.z));
         ASSERT_EQ(cell.row, row) << "column " << column;
         ASSERT_EQ(cell.column, column) << "row " << row;
       }
@@ -50,9 +52,9 @@ TEST(AngularGrid, KeepsPolesAndBordersInside) {
   EXPECT_EQ(grid.cell_of(0, 0, 1).row, 0);
   EXPECT_EQ(grid.cell_of(0, 0, -1).row, grid.rows() - 1);
   EXPECT_EQ(grid.cell_of(1, 0, 0).column, 0);
-  EXPECT_EQ(grid.cell_of(1, -1e-300, 0).column, grid.columns() - 1) << "just right of straight ahead";
-  EXPECT_EQ(grid.cell_of(1, -0.0, 0).column, 0);
-  EXPECT_EQ(grid.cell_of(-1, 1e-9, 0).column, grid.columns() / 2 - 1);
+  EXPECT_EQ(grid.cell_of(1, -1e-30F, 0).column, grid.columns() - 1) << "just right of straight ahead";
+  EXPECT_EQ(grid.cell_of(1, -0.0F, 0).column, 0);
+  EXPECT_EQ(grid.cell_of(-1, 1e-6F, 0).column, grid.columns() / 2 - 1);
 }
 
 TEST(AngularGrid, RejectsStepsOutsideItsLimits) {
