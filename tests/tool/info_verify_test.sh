@@ -50,6 +50,21 @@ for options in "--threshold 2cm" "--residual-step raw" "--group 1 --tile 7" "--r
   json "r['bound_held'] is True"
 done
 
+# Points 10 km away have coordinates in steps of 1 mm: that rounding is not held against the bound.
+mkdir far
+python3 - >far/0.bin <<'PYTHON'
+import math, random, struct, sys
+random.seed(1)
+for _ in range(500):
+    azimuth, elevation, r = random.uniform(-3, 3), random.uniform(-1, 1), random.uniform(8000, 12000)
+    x, y = (r * math.cos(elevation) * f(azimuth) for f in (math.cos, math.sin))
+    sys.stdout.buffer.write(struct.pack("<4f", x, y, r * math.sin(elevation), 0))
+PYTHON
+for threshold in 1mm 10cm; do
+  run 0 encode far -o far.reel -f --threshold $threshold
+  run 0 verify far.reel far
+done
+
 # Against the wrong originals.
 run 0 simulate -o other --frames 5 --sensor vlp-16 --seed 99
 run 1 verify drive.reel other

@@ -109,7 +109,7 @@ bool decode_batch(Decoder& decoder, std::span<const Packet> batch, const FrameRa
   return true;
 }
 
-// Only the packets that the wanted frames need, found by the index.
+// Only the packets that the wanted frames need, found by the index; damaged ones are left out.
 Result<std::vector<Packet>> packets_for(ReelReader& reader, const FrameRange& wanted, Written& written) {
   const auto index = reader.index();
   if (!index) return index.error();
@@ -126,7 +126,11 @@ Result<std::vector<Packet>> packets_for(ReelReader& reader, const FrameRange& wa
     if (!needed.contains(entry.frame)) continue;
     if (auto found = reader.seek(entry); !found) return found.error();
     auto packet = reader.read_packet();
-    if (!packet) return reader.fault().value_or(Error{ErrorCode::corrupt, "the index points at no packet"});
+    if (!packet) {
+      print_error(reader.fault().value_or(Error{ErrorCode::corrupt, "the index points at no packet"}));
+      written.lost_some = true;
+      continue;
+    }
     packets.push_back(*std::move(packet));
   }
   return packets;
