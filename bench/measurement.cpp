@@ -13,10 +13,6 @@
 namespace pointreel {
 namespace {
 
-// Nearest neighbours take longer than all the rest of a measurement, so they are sampled. 5 evenly spaced of
-// 30 sweeps fall on each place of the default group once.
-constexpr std::size_t kNearestSweeps = 5;
-
 using Clock = std::chrono::steady_clock;
 
 double ms_since(Clock::time_point start) {
@@ -91,21 +87,22 @@ SweepTimes per_sweep(double encode_ms, double decode_ms, std::size_t sweeps) {
   return {encode_ms / count, decode_ms / count};
 }
 
-std::set<std::size_t> sampled_sweeps(std::size_t count) {
+// The middles of `parts` equal parts of the sweeps.
+std::set<std::size_t> sampled_sweeps(std::size_t count, std::size_t parts) {
   std::set<std::size_t> sample;
-  for (std::size_t k = 0; k < kNearestSweeps; ++k) sample.insert((2 * k + 1) * count / (2 * kNearestSweeps));
+  for (std::size_t k = 0; k < parts; ++k) sample.insert((2 * k + 1) * count / (2 * parts));
   return sample;
 }
 
 }  // namespace
 
-Measurement measure(const SweepSet& set, const Setting& setting) {
+Measurement measure(const SweepSet& set, const Setting& setting, std::size_t nearest_sweeps) {
   EncodedReel reel = encode_reel(set, setting);
   Measurement measurement;
   measurement.bytes = reel.size;
   measurement.parts = reel.parts;
 
-  const auto sample = sampled_sweeps(set.sweeps.size());
+  const auto sample = sampled_sweeps(set.sweeps.size(), nearest_sweeps);
   measurement.nearest_sweeps = sample.size();
   const auto compare = [&](const StreamHeader& header, const std::vector<DecodedSweep>& sweeps) {
     measurement.range_bound_m = header.range_bound_m();

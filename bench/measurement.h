@@ -26,14 +26,15 @@ struct Measurement {
   std::uint64_t bytes = 0;   // of the whole file: header, packets, index
   double range_bound_m = 0;  // what the stream promises for the range of a kept point
   FrameStatistics parts;     // sums over all sweeps
-  SweepQuality quality;      // nearest neighbours of `nearest_sweeps` sweeps only
+  SweepQuality quality;      // nearest neighbours of `nearest_sweeps` only
   std::size_t nearest_sweeps = 0;
   SweepTimes times;
 };
 
 // Encodes into a .reel in memory, reads that back, decodes, and compares every point with its own.
-// Throws std::runtime_error.
-Measurement measure(const SweepSet& set, const Setting& setting);
+// Nearest neighbours take longer than all the rest together, so only those of `nearest_sweeps` evenly spaced
+// sweeps are looked for. Throws std::runtime_error.
+Measurement measure(const SweepSet& set, const Setting& setting, std::size_t nearest_sweeps);
 
 // Another pass for the clock alone.
 SweepTimes measure_times(const SweepSet& set, const Setting& setting);

@@ -16,15 +16,15 @@ namespace {
 
 struct Arguments {
   std::vector<std::string> inputs;
-  std::string output, poses, imu;
+  std::string poses, imu;
   int threads = 0;
-  int repeats = 3;
   std::size_t max_sweeps = 0;
+  pointreel::StudyOptions study;
 };
 
 void add_arguments(CLI::App& app, Arguments& arguments) {
   app.add_option("INPUT", arguments.inputs, "Sweeps: files, folders or globs")->required();
-  app.add_option("-o,--output", arguments.output, "Folder for the CSV files; files there are replaced")
+  app.add_option("-o,--output", arguments.study.folder, "Folder for the CSV files; files there are replaced")
       ->required();
   app.add_option("--poses", arguments.poses, "Sensor poses, one per sweep (KITTI) or with times (TUM)");
   app.add_option("--imu", arguments.imu,
@@ -32,8 +32,12 @@ void add_arguments(CLI::App& app, Arguments& arguments) {
   app.add_option("--threads", arguments.threads, "0: one per processor")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
-  app.add_option("--repeat", arguments.repeats, "Passes of the series about speed; medians are written")
+  app.add_option("--repeat", arguments.study.repeats, "Passes of the series about speed; medians are written")
       ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_option("--nearest", arguments.study.nearest_sweeps,
+                 "Look for nearest neighbours in this many sweeps, evenly spaced")
+      ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
   app.add_option("--sweeps", arguments.max_sweeps, "Take this many sweeps at most; 0: all")
       ->capture_default_str();
@@ -42,10 +46,10 @@ void add_arguments(CLI::App& app, Arguments& arguments) {
 void run(const Arguments& arguments) {
   using namespace pointreel;
   const SweepSet set = load_sweep_set(arguments.inputs, arguments.poses, arguments.imu, arguments.max_sweeps);
-  std::filesystem::create_directories(arguments.output);
+  std::filesystem::create_directories(arguments.study.folder);
   for (const Series& series : study_series(set, arguments.threads))
-    write_series(series, set, arguments.repeats, arguments.output);
-  write_speedup(speedup_settings(set, arguments.threads), set, arguments.repeats, arguments.output);
+    write_series(series, set, arguments.study);
+  write_speedup(speedup_settings(set, arguments.threads), set, arguments.study);
 }
 
 }  // namespace

@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kRadPerDeg = std::numbers::pi / 180;
 constexpr int kSingleFrame = 1;
-constexpr int kStreaming = 5;                         // the paper's group
+constexpr int kStreaming = 5;  // the paper's group
+constexpr int kLongGroup = 15;
 constexpr double kAccurate_m = 0.1, kCoarse_m = 0.5;  // thresholds of series that vary something else
 
 Setting setting_of(const SweepSet& set, int threads, double threshold_m, int group) {
@@ -82,11 +83,12 @@ Series tile_series(const SweepSet& set, int threads) {
 }
 
 Series motion_series(const SweepSet& set, int threads) {
+  std::vector<int> groups = {kStreaming};
+  if (set.sweeps.size() >= static_cast<std::size_t>(kLongGroup)) groups.push_back(kLongGroup);
   Series series{"motion", {}};
   for (const double threshold_m : {kAccurate_m, kCoarse_m}) {
-    for (const MotionSource motion : set.motion_sources()) {
-      for (const int group : group_sizes(set)) {
-        if (group != kStreaming && group != 3 * kStreaming) continue;
+    for (const int group : groups) {
+      for (const MotionSource motion : set.motion_sources()) {
         Setting setting = setting_of(set, threads, threshold_m, group);
         setting.motion = motion;
         series.settings.push_back(setting);

@@ -145,13 +145,12 @@ void report(std::string_view table, const Setting& setting, const std::string& r
 
 }  // namespace
 
-void write_series(const Series& series, const SweepSet& set, int repeats,
-                  const std::filesystem::path& folder) {
-  const int passes = series.timed ? repeats : 1;
+void write_series(const Series& series, const SweepSet& set, const StudyOptions& options) {
+  const int passes = series.timed ? options.repeats : 1;
   std::vector<Measurement> measurements;
   std::vector<std::vector<SweepTimes>> times;
   for (const Setting& setting : series.settings) {
-    const Measurement& measurement = measurements.emplace_back(measure(set, setting));
+    const Measurement& measurement = measurements.emplace_back(measure(set, setting, options.nearest_sweeps));
     times.push_back({measurement.times});
     report(
         series.name, setting,
@@ -161,7 +160,7 @@ void write_series(const Series& series, const SweepSet& set, int repeats,
   for (int pass = 1; pass < passes; ++pass) {
     for (std::size_t i = 0; i < times.size(); ++i) times[i].push_back(measure_times(set, series.settings[i]));
   }
-  CsvFile file(folder / fmt::format("{}.csv", series.name));
+  CsvFile file(options.folder / fmt::format("{}.csv", series.name));
   for (std::size_t i = 0; i < times.size(); ++i) {
     Row row;
     add_setting(row, series.settings[i], set, passes);
@@ -172,15 +171,14 @@ void write_series(const Series& series, const SweepSet& set, int repeats,
   }
 }
 
-void write_speedup(const std::vector<Setting>& settings, const SweepSet& set, int repeats,
-                   const std::filesystem::path& folder) {
-  CsvFile file(folder / "speedup.csv");
+void write_speedup(const std::vector<Setting>& settings, const SweepSet& set, const StudyOptions& options) {
+  CsvFile file(options.folder / "speedup.csv");
   for (const Setting& setting : settings) {
     Setting one_thread = setting;
     one_thread.threads = 1;
     std::vector<SweepTimes> alone, together;
     std::vector<double> encode_ratios, decode_ratios;
-    for (int pass = 0; pass < repeats; ++pass) {
+    for (int pass = 0; pass < options.repeats; ++pass) {
       alone.push_back(measure_times(set, one_thread));
       together.push_back(measure_times(set, setting));
       encode_ratios.push_back(alone.back().encode_ms / together.back().encode_ms);
@@ -189,7 +187,7 @@ void write_speedup(const std::vector<Setting>& settings, const SweepSet& set, in
     const double encode_speedup = quantile(std::move(encode_ratios), 0.5);
     const double decode_speedup = quantile(std::move(decode_ratios), 0.5);
     Row row;
-    add_setting(row, setting, set, repeats);
+    add_setting(row, setting, set, options.repeats);
     row.add("encode_speedup", encode_speedup)
         .add("decode_speedup", decode_speedup)
         .add("encode_ms_one_thread", median(alone).encode_ms)
