@@ -40,6 +40,7 @@ void add_arguments(CLI::App& app, Arguments& arguments) {
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
   app.add_option("--sweeps", arguments.max_sweeps, "Take this many sweeps at most; 0: all")
+      ->take_last()  // so that bench/run --sweeps overrules its own
       ->capture_default_str();
 }
 

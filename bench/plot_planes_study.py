@@ -93,7 +93,8 @@ def draw_threshold(table, figure):
 def draw_rate_error(table, figure):
     panels = figure.subplots(1, 2)
     measures = (("mean_error_m", "mean error of kept points [cm]", "each kept point to its own decoded point"),
-                ("nearest_decoded_mean_m", "mean distance [cm]", "every original point, lost ones too, to the nearest decoded"))
+                ("nearest_decoded_mean_m", "mean distance [cm]",
+                 "every original point, lost ones too, to the nearest decoded"))
     for axes, (column, label, title) in zip(panels, measures):
         for mode, colour in MODE_COLOURS.items():
             rows = rows_where(table, mode=mode)
@@ -153,9 +154,9 @@ def draw_group(table, figure):
         for column, label, style, colour in lines:
             axes.plot(rows["group"], rows[column] / normal[column][0], style, color=colour, label=label)
         axes.axhline(1, color="grey", linewidth=0.8)
-        axes.set_title(f"threshold {threshold_m:g} m; at 5 sweeps: {normal['ratio_xyz32'][0]:.1f} : 1, "
-                       f"encode {normal['encode_sweeps_per_s'][0]:.0f}/s, decode {normal['decode_sweeps_per_s'][0]:.0f}/s, "
-                       f"{100 * normal['mean_error_m'][0]:.1f} cm", fontsize=10)
+        ratio, encode, decode, error_m = (normal[column][0] for column, *_ in lines)
+        axes.set_title(f"threshold {threshold_m:g} m; at 5 sweeps: {ratio:.1f} : 1, encode {encode:.0f} sweeps/s, "
+                       f"decode {decode:.0f}, {100 * error_m:.1f} cm", fontsize=10)
         axes.set_xlabel(f"sweeps per group (motion: {rows['motion'][0]}, threads: {rows['threads'][0]})")
         axes.set_xticks(rows["group"])
         axes.grid(alpha=0.3)
@@ -209,7 +210,8 @@ def draw_tile(table, figure):
         for line, (residual, what) in enumerate(residuals.items()):
             rows = rows_where(table, mode=mode, residual=residual)
             axes = panels[line][column]
-            draw_stacked_rate(axes, rows, [f"{row['tile']} x {row['tile']}\n{100 * row['unfit_share']:.0f} % unfit" for row in rows])
+            labels = [f"{row['tile']} x {row['tile']}\n{100 * row['unfit_share']:.0f} % unfit" for row in rows]
+            draw_stacked_rate(axes, rows, labels)
             axes.set_title(f"{mode}: {what}", fontsize=10)
     for axes in panels[:, 0]:
         axes.set_ylabel("bits per input point")
@@ -222,8 +224,9 @@ def draw_motion(table, figure):
     panels = figure.subplots(1, 2)
     for axes, threshold_m in zip(panels, THRESHOLD_STYLES):
         rows = rows_where(table, threshold_m=threshold_m)
-        draw_stacked_rate(axes, rows, [f"{row['motion']}\ngroup {row['group']}\n{100 * row['temporal_share']:.0f} % temporal\n"
-                                       f"{100 * (1 - row['kept_share']):.0f} % lost" for row in rows])
+        labels = [f"{row['motion']}\ngroup {row['group']}\n{100 * row['temporal_share']:.0f} % temporal\n"
+                  f"{100 * (1 - row['kept_share']):.0f} % lost" for row in rows]
+        draw_stacked_rate(axes, rows, labels)
         axes.set_title(f"threshold {threshold_m:g} m", fontsize=10)
         axes.set_xlabel("motion given to the encoder; temporal: cells on key-frame planes;\n"
                         "lost: points behind a nearer one in their cell")
@@ -259,7 +262,7 @@ def draw_speedup(table, figure):
 PICTURES = {
     "threshold": ("threshold", draw_threshold, (8, 5.5), "Rate against threshold"),
     "rate_error": ("threshold", draw_rate_error, (12, 5), "Rate against error"),
-    "resolution": ("resolution", draw_resolution, (14, 5), "Rate and quality against the resolution of the range image"),
+    "resolution": ("resolution", draw_resolution, (14, 5), "Rate and quality against resolution"),
     "group": ("group", draw_group, (13, 5.5), "Sensitivity to the number of sweeps per group"),
     "shares": ("group", draw_shares, (12, 5.5), "How cells are coded"),
     "tile": ("tile", draw_tile, (11, 8), "Rate against tile size and residual coding"),

@@ -22,10 +22,14 @@ Setting setting_of(const SweepSet& set, int threads, double threshold_m, int gro
   return setting;
 }
 
+bool fits(const SweepSet& set, int group) {
+  return static_cast<std::size_t>(group) <= set.sweeps.size();
+}
+
 std::vector<int> group_sizes(const SweepSet& set) {
   std::vector<int> sizes;
   for (const int group : {1, 3, 5, 7, 9, 11, 13, 15, 17, 19}) {
-    if (static_cast<std::size_t>(group) <= set.sweeps.size()) sizes.push_back(group);
+    if (fits(set, group)) sizes.push_back(group);
   }
   return sizes;
 }
@@ -84,7 +88,7 @@ Series tile_series(const SweepSet& set, int threads) {
 
 Series motion_series(const SweepSet& set, int threads) {
   std::vector<int> groups = {kStreaming};
-  if (set.sweeps.size() >= static_cast<std::size_t>(kLongGroup)) groups.push_back(kLongGroup);
+  if (fits(set, kLongGroup)) groups.push_back(kLongGroup);
   Series series{"motion", {}};
   for (const double threshold_m : {kAccurate_m, kCoarse_m}) {
     for (const int group : groups) {
@@ -110,7 +114,9 @@ std::vector<Setting> speedup_settings(const SweepSet& set, int threads) {
   std::vector<Setting> settings;
   for (int count = 2; count < most; ++count)
     settings.push_back(setting_of(set, count, kAccurate_m, kStreaming));
-  for (const int group : group_sizes(set)) settings.push_back(setting_of(set, most, kAccurate_m, group));
+  for (const int group : {1, 3, 5, 9, 13, 19}) {
+    if (fits(set, group)) settings.push_back(setting_of(set, most, kAccurate_m, group));
+  }
   return settings;
 }
 

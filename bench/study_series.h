@@ -19,7 +19,7 @@ struct Series {
 std::vector<Series> study_series(const SweepSet& set, int threads);
 
 // The settings of which the speed-up over one thread is asked: the default group on each number of threads,
-// and each group size on `threads`.
+// and small to large groups on `threads`.
 std::vector<Setting> speedup_settings(const SweepSet& set, int threads);
 
 }  // namespace pointreel
