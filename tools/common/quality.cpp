@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nanoflann.hpp>
 #include <span>
 
@@ -73,20 +74,17 @@ void SweepQuality::merge(const SweepQuality& other) {
   nearest_original.merge(other.nearest_original);
 }
 
-SweepQuality measure_quality(const PointCloud& original, const DecodedSweep& decoded,
-                             const std::vector<std::int64_t>& pairs) {
+SweepQuality measure_pairs(const PointCloud& original, const DecodedSweep& decoded,
+                           const std::vector<std::int64_t>& pairs) {
   SweepQuality quality;
   quality.points_in = original.size();
   quality.points_out = decoded.cloud.size();
-  std::vector<Point3f> finite;
-  finite.reserve(original.size());
   for (std::size_t i = 0; i < original.size(); ++i) {
     const Point3f& p = original.positions[i];
     if (!is_finite(p)) {
       ++quality.non_finite;
       continue;
     }
-    finite.push_back(p);
     if (pairs[i] < 0) {
       ++quality.points_lost;
       continue;
@@ -98,6 +96,15 @@ SweepQuality measure_quality(const PointCloud& original, const DecodedSweep& dec
     quality.paired_range.add(std::fabs(p_key.norm() - q_key.norm()));
     quality.paired_angular.add((p_key - q_key.normalized() * p_key.norm()).norm());
   }
+  return quality;
+}
+
+SweepQuality measure_quality(const PointCloud& original, const DecodedSweep& decoded,
+                             const std::vector<std::int64_t>& pairs) {
+  SweepQuality quality = measure_pairs(original, decoded, pairs);
+  std::vector<Point3f> finite;
+  finite.reserve(original.size());
+  std::copy_if(original.positions.begin(), original.positions.end(), std::back_inserter(finite), is_finite);
   quality.nearest_decoded = nearest_errors(finite, decoded.cloud.positions);
   quality.nearest_original = nearest_errors(decoded.cloud.positions, finite);
   return quality;

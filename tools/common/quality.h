@@ -35,6 +35,10 @@ struct SweepQuality {
 SweepQuality measure_quality(const PointCloud& original, const DecodedSweep& decoded,
                              const std::vector<std::int64_t>& pairs);
 
+// The same without the nearest neighbours, which take most of the time.
+SweepQuality measure_pairs(const PointCloud& original, const DecodedSweep& decoded,
+                           const std::vector<std::int64_t>& pairs);
+
 // Median and the like of a list of timings; 0 for an empty one. `share` in [0, 1].
 double quantile(std::vector<double> values, double share);
 

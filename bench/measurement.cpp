@@ -1,0 +1,135 @@
+#include "measurement.h"
+
+#include <chrono>
+#include <optional>
+#include <set>
+#include <sstream>
+
+#include "base/parallel.h"
+#include "common/packet_batches.h"
+#include "pointreel/reel.h"
+#include "require.h"
+
+namespace pointreel {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double ms_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+struct EncodedReel {
+  std::stringstream bytes;
+  std::uint64_t size = 0;
+  FrameStatistics parts;
+  double encode_ms = 0;  // of all sweeps
+};
+
+void add(FrameStatistics& sum, const FrameStatistics& frame) {
+  sum.occupancy_bits += frame.occupancy_bits;
+  sum.plane_bits += frame.plane_bits;
+  sum.residual_bits += frame.residual_bits;
+  sum.spatial_cells += frame.spatial_cells;
+  sum.temporal_cells += frame.temporal_cells;
+  sum.unfit_cells += frame.unfit_cells;
+  sum.runs += frame.runs;
+}
+
+EncodedReel encode_reel(const SweepSet& set, const Setting& setting) {
+  Encoder encoder = require(Encoder::create({Method::planes, setting.planes}, Runtime{setting.threads}));
+  EncodedReel reel;
+  ReelWriter writer = require(ReelWriter::create(reel.bytes, encoder.header()));
+  const std::vector<Pose>& poses = set.poses_from(setting.motion);
+  const auto write = [&](const Result<std::vector<Packet>>& packets) {
+    for (const Packet& packet : require(packets)) {
+      require(writer.write(packet));
+      add(reel.parts, packet.statistics);
+    }
+  };
+  for (std::size_t i = 0; i < set.sweeps.size(); ++i) {
+    PointCloud sweep = set.sweeps[i];  // the encoder keeps it; the copy is not its work
+    const auto start = Clock::now();
+    const auto packets = encoder.encode(std::move(sweep), poses.empty() ? std::optional<Pose>{} : poses[i]);
+    reel.encode_ms += ms_since(start);
+    write(packets);
+  }
+  const auto start = Clock::now();
+  const auto packets = encoder.finish();
+  reel.encode_ms += ms_since(start);
+  write(packets);
+  require(writer.finish());
+  reel.size = writer.bytes_written();
+  return reel;
+}
+
+// Calls use(header, sweeps) with each batch of decoded sweeps. Returns the time of decoding alone.
+template <class Use>
+double decode_reel(EncodedReel& reel, int threads, const Use& use) {
+  ReelReader reader = require(ReelReader::open(reel.bytes, "reel in memory"));
+  Decoder decoder = require(Decoder::create(reader.header(), Runtime{threads}));
+  PacketBatches batches(reader);
+  double decode_ms = 0;
+  for (auto batch = batches.next(); !batch.empty(); batch = batches.next()) {
+    const auto start = Clock::now();
+    const auto results = decoder.decode(batch);
+    decode_ms += ms_since(start);
+    std::vector<DecodedSweep> sweeps;
+    for (const auto& result : results) sweeps.push_back(require(result));
+    use(reader.header(), sweeps);
+  }
+  if (reader.ending() != ReelEnding::complete) throw std::runtime_error("reel in memory: is not complete");
+  return decode_ms;
+}
+
+SweepTimes per_sweep(double encode_ms, double decode_ms, std::size_t sweeps) {
+  const auto count = static_cast<double>(sweeps);
+  return {encode_ms / count, decode_ms / count};
+}
+
+// The middles of `parts` equal parts of the sweeps.
+std::set<std::size_t> sampled_sweeps(std::size_t count, std::size_t parts) {
+  std::set<std::size_t> sample;
+  for (std::size_t k = 0; k < parts; ++k) sample.insert((2 * k + 1) * count / (2 * parts));
+  return sample;
+}
+
+}  // namespace
+
+Measurement measure(const SweepSet& set, const Setting& setting, std::size_t nearest_sweeps) {
+  EncodedReel reel = encode_reel(set, setting);
+  Measurement measurement;
+  measurement.bytes = reel.size;
+  measurement.parts = reel.parts;
+
+  const auto sample = sampled_sweeps(set.sweeps.size(), nearest_sweeps);
+  measurement.nearest_sweeps = sample.size();
+  const auto compare = [&](const StreamHeader& header, const std::vector<DecodedSweep>& sweeps) {
+    measurement.range_bound_m = header.range_bound_m();
+    std::vector<std::optional<Result<SweepQuality>>> qualities(sweeps.size());
+    // Not part of any timing, so on all processors whatever the setting says.
+    parallel_for(sweeps.size(), resolve_threads(0), [&](std::size_t i) {
+      const PointCloud& original = set.sweeps.at(sweeps[i].frame);
+      const auto pairs = pair_points(header, original, sweeps[i]);
+      if (!pairs) {
+        qualities[i] = pairs.error();
+      } else {
+        qualities[i] = sample.contains(sweeps[i].frame) ? measure_quality(original, sweeps[i], *pairs)
+                                                        : measure_pairs(original, sweeps[i], *pairs);
+      }
+    });
+    for (const auto& quality : qualities) measurement.quality.merge(require(*quality));
+  };
+  const double decode_ms = decode_reel(reel, setting.threads, compare);
+  measurement.times = per_sweep(reel.encode_ms, decode_ms, set.sweeps.size());
+  return measurement;
+}
+
+SweepTimes measure_times(const SweepSet& set, const Setting& setting) {
+  EncodedReel reel = encode_reel(set, setting);
+  const double decode_ms =
+      decode_reel(reel, setting.threads, [](const StreamHeader&, const std::vector<DecodedSweep>&) {});
+  return per_sweep(reel.encode_ms, decode_ms, set.sweeps.size());
+}
+
+}  // namespace pointreel

@@ -1,0 +1,35 @@
+// The sweeps of a study, all in memory so that reading files is in no timing, and their poses.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pointreel/motion.h"
+#include "pointreel/point_cloud.h"
+
+namespace pointreel {
+
+// Where the poses come from that the encoder is given.
+enum class MotionSource : std::uint8_t { none, imu, poses };
+std::string_view to_string(MotionSource source);
+
+struct SweepSet {
+  std::vector<PointCloud> sweeps;  // positions only
+  std::vector<Pose> poses;         // T_world_sensor of each sweep, empty when not given
+  std::vector<Pose> imu_poses;     // the same, integrated from the IMU
+  std::size_t points = 0;
+
+  std::vector<MotionSource> motion_sources() const;  // those that can be used, best last
+  MotionSource best_motion() const { return motion_sources().back(); }
+  // Empty for MotionSource::none.
+  const std::vector<Pose>& poses_from(MotionSource source) const;
+};
+
+// The first `max_sweeps` of the inputs, 0 for all; `poses` and `imu` may be empty and are matched to all
+// inputs. Throws std::runtime_error.
+SweepSet load_sweep_set(const std::vector<std::string>& inputs, const std::string& poses,
+                        const std::string& imu, std::size_t max_sweeps);
+
+}  // namespace pointreel
