@@ -75,6 +75,7 @@ double decode_reel(EncodedReel& reel, int threads, const Use& use) {
     const auto results = decoder.decode(batch);
     decode_ms += ms_since(start);
     std::vector<DecodedSweep> sweeps;
+    sweeps.reserve(results.size());
     for (const auto& result : results) sweeps.push_back(require(result));
     use(reader.header(), sweeps);
   }
