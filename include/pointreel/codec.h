@@ -53,7 +53,8 @@ struct StreamHeader {
   Method method = Method::planes;
   PlanesOptions planes;  // with residual_step_m resolved
 
-  // Largest range error of a kept point: the threshold, or half the residual step if that is more.
+  // Largest range error of a kept point: the threshold, or half the residual step if that is more. Decoded
+  // positions are float32; where their rounding matters (1 mm at 10 km) it comes on top.
   double range_bound_m() const;
 };
 

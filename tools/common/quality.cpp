@@ -67,6 +67,7 @@ void SweepQuality::merge(const SweepQuality& other) {
   points_out += other.points_out;
   non_finite += other.non_finite;
   points_lost += other.points_lost;
+  farthest_m = std::max(farthest_m, other.farthest_m);
   paired.merge(other.paired);
   paired_range.merge(other.paired_range);
   paired_angular.merge(other.paired_angular);
@@ -93,6 +94,7 @@ SweepQuality measure_pairs(const PointCloud& original, const DecodedSweep& decod
     quality.paired.add((vector_of(p) - vector_of(q)).norm());
     const Eigen::Vector3d p_key = decoded.T_key_sensor * vector_of(p),
                           q_key = decoded.T_key_sensor * vector_of(q);
+    quality.farthest_m = std::max(quality.farthest_m, p_key.norm());
     quality.paired_range.add(std::fabs(p_key.norm() - q_key.norm()));
     quality.paired_angular.add((p_key - q_key.normalized() * p_key.norm()).norm());
   }

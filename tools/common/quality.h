@@ -22,6 +22,7 @@ struct ErrorSummary {
 struct SweepQuality {
   std::size_t points_in = 0, points_out = 0, non_finite = 0;
   std::size_t points_lost = 0;    // finite points without an own decoded point
+  double farthest_m = 0;          // range of the farthest kept point, as below
   ErrorSummary paired;            // each kept point to its own decoded point
   ErrorSummary paired_range;      // of which along the ray, seen from the frame the range image lives in
   ErrorSummary paired_angular;    // of which across it: rounding to the cell's centre

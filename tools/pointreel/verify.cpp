@@ -38,12 +38,15 @@ struct Verification {
 };
 
 // The threshold is tested on float32 ranges; decoded points are float32, and moved, so allow for their
-// rounding.
+// rounding, which grows with the range.
 constexpr double kRoundingAllowance_m = 1e-4;
+constexpr double kRelativeRoundingAllowance = 3e-7;
 
 // Ray error of a kept point: `range_bound_m` of the stream, on every point.
 bool bound_held(const Verification& verification, const StreamHeader& header) {
-  return verification.quality.paired_range.max_m <= header.range_bound_m() + kRoundingAllowance_m;
+  const double rounding_m =
+      kRoundingAllowance_m + kRelativeRoundingAllowance * verification.quality.farthest_m;
+  return verification.quality.paired_range.max_m <= header.range_bound_m() + rounding_m;
 }
 
 // Decodes one batch, measures it, and times the encoder on the same sweeps. Frames may come in any order.
