@@ -102,6 +102,8 @@ class Encoder {
  public:
   // Error: invalid_argument naming the option.
   static Result<Encoder> create(const EncoderOptions& options, const Runtime& runtime = {});
+  Encoder(const Encoder&) = delete;
+  Encoder& operator=(const Encoder&) = delete;
   Encoder(Encoder&&) noexcept;
   Encoder& operator=(Encoder&&) noexcept;
   ~Encoder();
@@ -131,6 +133,8 @@ struct DecodedSweep {
 class Decoder {
  public:
   static Result<Decoder> create(const StreamHeader& header, const Runtime& runtime = {});
+  Decoder(const Decoder&) = delete;
+  Decoder& operator=(const Decoder&) = delete;
   Decoder(Decoder&&) noexcept;
   Decoder& operator=(Decoder&&) noexcept;
   ~Decoder();

@@ -77,7 +77,7 @@ class ReelReader {
  private:
   ReelReader(std::istream& stream, std::string name) : stream_(&stream), name_(std::move(name)) {}
   std::vector<std::uint8_t> read_bytes(std::size_t count);
-  void end_with(Error error);
+  void end_with(const Error& error);
   void end_at_index(std::vector<std::uint8_t> bytes, std::uint64_t index_offset);
   std::optional<std::vector<ReelIndexEntry>> stored_index();
   bool rewind_to(std::uint64_t offset);

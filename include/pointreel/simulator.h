@@ -42,6 +42,8 @@ class Simulator {
   // Needs options that validate() accepts. Sweeps take the same memory however long the drive.
   explicit Simulator(const SimulatorOptions& options);
   ~Simulator();
+  Simulator(const Simulator&) = delete;
+  Simulator& operator=(const Simulator&) = delete;
   Simulator(Simulator&&) noexcept;
   Simulator& operator=(Simulator&&) noexcept;
 

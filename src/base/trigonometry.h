@@ -33,7 +33,7 @@ inline float fast_atan2(float y, float x) {
                                      0.05708955591530535F,  -0.030351864777082425F, 0.010487649252677426F,
                                      -0.001701170063940315F};
   constexpr float kSmallest = 1e-37F;  // keeps 0/0 away
-  constexpr float kHalfTurn = static_cast<float>(kPi);
+  constexpr auto kHalfTurn = static_cast<float>(kPi);
   const float ax = std::fabs(x);
   const float ay = std::fabs(y);
   const float larger = ax > ay ? ax : ay;

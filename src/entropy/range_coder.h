@@ -58,14 +58,12 @@ class RangeDecoder {
 
   bool decode(Probability16 p_one) {
     const std::uint32_t bound = (range_ >> kProbabilityBits) * p_one;
-    bool bit;
-    if (code_ < bound) {
+    const bool bit = code_ < bound;
+    if (bit) {
       range_ = bound;
-      bit = true;
     } else {
       code_ -= bound;
       range_ -= bound;
-      bit = false;
     }
     while (range_ < kTop) {
       range_ <<= 8;

@@ -13,8 +13,8 @@
 namespace pointreel {
 namespace {
 
-// Anchor ranges in steps of 0.7 thresholds: finer steps cost more bits than the longer runs save, coarser ones
-// break too many runs (0.3, 0.5, 0.7 and 1.0 were tried).
+// Anchor ranges in steps of 0.7 thresholds: finer steps cost more bits than the longer runs save, coarser
+// ones break too many runs (0.3, 0.5, 0.7 and 1.0 were tried).
 constexpr double kPlaneStepPerThreshold = 0.7;
 
 // A cell's occupancy costs at least log2(65536 / 65465) = 0.0016 bits: 5,100 cells a byte. Checked before

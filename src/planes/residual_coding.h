@@ -44,14 +44,14 @@ class ResidualCoder {
   }
 
   float code_raw(float range_m) {
-    const std::uint32_t bits = std::bit_cast<std::uint32_t>(range_m);
+    const auto bits = std::bit_cast<std::uint32_t>(range_m);
     std::uint32_t coded = 0;
     for (int byte = 0; byte < 4; ++byte) {
       coded |=
           static_cast<std::uint32_t>(raw_[byte].code(coder_, static_cast<std::uint8_t>(bits >> (8 * byte))))
           << (8 * byte);
     }
-    const float range = std::bit_cast<float>(coded);
+    const auto range = std::bit_cast<float>(coded);
     return range > 0 ? range : kNearest_m;  // NaN from damaged bytes, too
   }
 

@@ -66,7 +66,7 @@ std::optional<Packet> ReelReader::read_packet() {
   }
   const auto end = [&](Error error) {
     error.message = "packet at byte " + std::to_string(packet_offset) + ": " + error.message;
-    end_with(std::move(error));
+    end_with(error);
     return std::nullopt;
   };
   if (bytes.empty()) return end({ErrorCode::truncated, "the file ends here without an index"});
@@ -137,7 +137,7 @@ std::vector<std::uint8_t> ReelReader::read_bytes(std::size_t count) {
   return bytes;
 }
 
-void ReelReader::end_with(Error error) {
+void ReelReader::end_with(const Error& error) {
   ending_ = ReelEnding::cut_off;
   fault_ = Error{error.code, name_ + ": " + error.message};
 }

@@ -77,7 +77,8 @@ TEST(FastAtan2, OfTheOriginIsZeroAndOfTheNegativeAxisPi) {
   EXPECT_EQ(fast_atan2(0, 0), 0);
   EXPECT_EQ(fast_atan2(-0.0F, 0.0F), 0);
   EXPECT_EQ(fast_atan2(0, -1), static_cast<float>(kPi));
-  EXPECT_EQ(fast_atan2(-0.0F, -1), static_cast<float>(kPi));  // the interval is (-pi, pi], whatever the sign of the zero
+  EXPECT_EQ(fast_atan2(-0.0F, -1),
+            static_cast<float>(kPi));  // the interval is (-pi, pi], whatever the sign of the zero
 }
 
 }  // namespace

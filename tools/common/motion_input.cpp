@@ -81,7 +81,7 @@ Result<std::vector<double>> sweep_times(std::span<const std::filesystem::path> s
   for (const auto& candidate : {folder / "times.txt", folder.parent_path() / "times.txt"}) {
     std::ifstream file(candidate);
     if (!file) continue;
-    for (double time_s; file >> time_s;) times.push_back(time_s);
+    for (double time_s = 0; file >> time_s;) times.push_back(time_s);
     if (times.size() < sweeps.size()) return count_mismatch(candidate, times.size(), sweeps.size());
     times.resize(sweeps.size());
     return times;

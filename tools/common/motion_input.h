@@ -12,7 +12,7 @@ namespace pointreel {
 
 // KITTI (12 numbers a line) or TUM (8 numbers a line) poses; a line per sweep, or TUM times that cover the
 // sweeps'.
-Result<std::vector<Pose>> sweep_poses_from_file(const std::filesystem::path& poses,
+Result<std::vector<Pose>> sweep_poses_from_file(const std::filesystem::path& file,
                                                 std::span<const std::filesystem::path> sweeps);
 
 // IMU .csv or KITTI oxts folder, integrated. A sample per sweep is taken as such; otherwise sweep times

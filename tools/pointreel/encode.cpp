@@ -142,14 +142,14 @@ std::optional<Error> encode_sweeps(Encoder& encoder, ReelWriter& writer,
       const auto packets =
           encoder.encode(*std::move(clouds[i]), poses.empty() ? std::optional<Pose>{} : poses[begin + i]);
       pending_ms += ms_since(start);
-      if (const auto error = write(packets)) return error;
+      if (auto error = write(packets)) return error;
       progress.advance_to(begin + i + 1);
     }
   }
   const auto start = Clock::now();
   const auto packets = encoder.finish();
   pending_ms += ms_since(start);
-  if (const auto error = write(packets)) return error;
+  if (auto error = write(packets)) return error;
   if (auto finished = writer.finish(); !finished) return finished.error();
   return input_error;
 }
