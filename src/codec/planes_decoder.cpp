@@ -1,6 +1,7 @@
 // Method `planes`, the way back: packets -> key frame -> predicted frames -> points in each sweep's own
 // coordinates.
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include "base/parallel.h"
@@ -19,35 +20,61 @@ class PlanesDecoder final : public Decoder::Implementation {
       : grid_(std::move(grid)), settings_(frame_settings(header.planes)), threads_(threads) {}
 
   std::vector<Result<DecodedSweep>> decode(std::span<const Packet> packets) override {
-    std::vector<Result<DecodedSweep>> sweeps(packets.size(), DecodedSweep{});
-    // Between two key frames all predicted frames need the same reference: one parallel batch.
-    for (std::size_t begin = 0; begin < packets.size();) {
-      if (packets[begin].kind == FrameKind::key) {
-        sweeps[begin] = decode_key(packets[begin]);
-        ++begin;
-      }
-      std::size_t end = begin;
-      while (end < packets.size() && packets[end].kind == FrameKind::predicted) ++end;
-      parallel_for(end - begin, threads_,
-                   [&](std::size_t i) { sweeps[begin + i] = decode_predicted(packets[begin + i]); });
-      begin = end;
+    std::vector<Result<DecodedSweep>> sweeps;
+    sweeps.reserve(packets.size());
+    while (sweeps.size() < packets.size()) {
+      const std::span<const Packet> left = packets.subspan(sweeps.size());
+      for (auto& sweep : decode_groups(left.first(packets_of_groups(left))))
+        sweeps.push_back(std::move(sweep));
     }
     return sweeps;
   }
 
  private:
-  Result<DecodedSweep> decode_key(const Packet& packet) {
-    has_key_ = false;
-    auto frame = decode_frame(grid_, packet.payload, settings_, nullptr);
-    if (!frame) return in_frame(packet, frame.error());
-    key_ = *std::move(frame);
-    key_frame_ = packet.frame;
-    has_key_ = true;
-    return sweep_of(packet, key_.image, Pose::Identity());
+  struct DecodedKey {
+    std::uint32_t frame = 0;
+    KeyFrame key;
+  };
+
+  // How many packets to take so that there is a key frame for each thread, no more: each is held in memory.
+  std::size_t packets_of_groups(std::span<const Packet> packets) const {
+    int keys = 0;
+    for (std::size_t i = 0; i < packets.size(); ++i) {
+      if (packets[i].kind == FrameKind::key && ++keys > threads_) return i;
+    }
+    return packets.size();
   }
 
-  Result<DecodedSweep> decode_predicted(const Packet& packet) const {
-    if (!has_key_ || key_frame_ != packet.reference_frame) {
+  // All key frames in parallel, then all predicted ones.
+  std::vector<Result<DecodedSweep>> decode_groups(std::span<const Packet> packets) {
+    std::vector<Result<DecodedSweep>> sweeps(packets.size(), DecodedSweep{});
+    std::vector<std::size_t> key_packets, predicted_packets;
+    std::vector<std::size_t> keys_before(packets.size());  // of this call, for each predicted frame
+    for (std::size_t i = 0; i < packets.size(); ++i) {
+      (packets[i].kind == FrameKind::key ? key_packets : predicted_packets).push_back(i);
+      keys_before[i] = key_packets.size();
+    }
+    std::vector<std::optional<DecodedKey>> keys(key_packets.size());
+    parallel_for(keys.size(), threads_, [&](std::size_t k) {
+      sweeps[key_packets[k]] = decode_key(packets[key_packets[k]], keys[k]);
+    });
+    parallel_for(predicted_packets.size(), threads_, [&](std::size_t p) {
+      const std::size_t i = predicted_packets[p];
+      sweeps[i] = decode_predicted(packets[i], keys_before[i] == 0 ? last_key_ : keys[keys_before[i] - 1]);
+    });
+    if (!keys.empty()) last_key_ = std::move(keys.back());
+    return sweeps;
+  }
+
+  Result<DecodedSweep> decode_key(const Packet& packet, std::optional<DecodedKey>& key) const {
+    auto frame = decode_frame(grid_, packet.payload, settings_, nullptr);
+    if (!frame) return in_frame(packet, frame.error());
+    key = DecodedKey{packet.frame, *std::move(frame)};
+    return sweep_of(packet, key->key.image, Pose::Identity());
+  }
+
+  Result<DecodedSweep> decode_predicted(const Packet& packet, const std::optional<DecodedKey>& key) const {
+    if (!key || key->frame != packet.reference_frame) {
       return in_frame(packet,
                       {ErrorCode::corrupt, "its reference frame " + std::to_string(packet.reference_frame) +
                                                " was not decoded before it"});
@@ -55,7 +82,7 @@ class PlanesDecoder final : public Decoder::Implementation {
     ByteReader reader(packet.payload);
     const auto T_key_sensor = get_relative_pose(reader);
     if (!T_key_sensor) return in_frame(packet, T_key_sensor.error());
-    const auto frame = decode_frame(grid_, reader.rest(), settings_, &key_);
+    const auto frame = decode_frame(grid_, reader.rest(), settings_, &key->key);
     if (!frame) return in_frame(packet, frame.error());
     return sweep_of(packet, frame->image, *T_key_sensor);
   }
@@ -80,9 +107,7 @@ class PlanesDecoder final : public Decoder::Implementation {
   AngularGrid grid_;
   FrameSettings settings_;
   int threads_;
-  KeyFrame key_;
-  std::uint32_t key_frame_ = 0;
-  bool has_key_ = false;
+  std::optional<DecodedKey> last_key_;  // of the packets before this call
 };
 
 }  // namespace

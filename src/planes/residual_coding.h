@@ -1,6 +1,8 @@
 // The residual map: ranges of the cells that no plane holds, predicted from everything known around them.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -15,7 +17,13 @@ template <class Coder>
 class ResidualCoder {
  public:
   ResidualCoder(Coder& coder, double residual_step_m, const RangeImage* key)
-      : coder_(coder), step_m_(residual_step_m), key_(key) {}
+      : coder_(coder), step_m_(residual_step_m), key_(key) {
+    // Spreads of the ranges around a cell, in steps, at which the models change.
+    constexpr std::array<double, kNothingKnown - 1> kBorders = {0.25, 0.5, 1, 2, 4, 10, 30};
+    for (std::size_t i = 0; i < kBorders.size(); ++i) {
+      spread_borders_m_[i] = static_cast<float>(kBorders[i] * step_m_);
+    }
+  }
 
   // Codes every occupied cell whose `decoded` range is still 0, in raster order, and fills it in.
   // `image`: the source ranges (encoder) or anything with the same occupancy (decoder).
@@ -64,34 +72,43 @@ class ResidualCoder {
     const float* below = row + 1 < decoded.rows ? here + decoded.columns : nullptr;
     const float left = here[before];
 
-    float lowest = 1e30F, highest = 0, sum = 0, weight = 0;
-    const auto take = [&](float range_m, float w) {
-      const bool known = range_m > 0;
-      lowest = known && range_m < lowest ? range_m : lowest;
+    float lowest = 1e30F, highest = 0;
+    const auto note = [&](float range_m) {
+      lowest = range_m > 0 && range_m < lowest ? range_m : lowest;  // unknown ranges are 0
       highest = range_m > highest ? range_m : highest;
-      sum += w * range_m;  // unknown ranges are 0
-      weight += known ? w : 0.0F;
     };
-    take(left, 2);
-    take(here[after], 2);  // cells to the right and below are known where planes hold them
-    if (above != nullptr) {
-      take(above[column], 1);
-      take(above[before], 0.5F);
-      take(above[after], 0.5F);
-    }
-    if (below != nullptr) take(below[column], 1);
+    // Cells to the right and below are known where planes hold them.
+    const float right = here[after];
+    note(left);
+    note(right);
+    float up = 0, down = 0, up_left = 0, up_right = 0, in_key = 0;
+    if (above != nullptr) up = above[column], up_left = above[before], up_right = above[after];
+    if (below != nullptr) down = below[column];
     if (key_ != nullptr) {
       const int key_row = row + decoded.first_row - key_->first_row;
-      if (key_row >= 0 && key_row < key_->rows) take(key_->at(key_row, column), 2);
+      if (key_row >= 0 && key_row < key_->rows) in_key = key_->at(key_row, column);
     }
-    if (weight == 0) {
+    for (const float range_m : {up, down, up_left, up_right, in_key}) note(range_m);
+    if (highest == 0) {
       context = kNothingKnown;
       return kUsualRange_m;
     }
-    const double spread_steps = (highest - lowest) / step_m_;
+    const float spread_m = highest - lowest;
     context = 0;
-    for (const double border : {0.25, 0.5, 1.0, 2.0, 4.0, 10.0, 30.0}) context += spread_steps >= border;
-    return left > 0 ? left : sum / weight;
+    for (const float border_m : spread_borders_m_) context += spread_m >= border_m;
+    if (left > 0) return left;
+    float sum = 0, weight = 0;
+    const auto weigh = [&](float range_m, float w) {
+      sum += w * range_m;
+      weight += range_m > 0 ? w : 0.0F;
+    };
+    weigh(right, 2);
+    weigh(in_key, 2);
+    weigh(up, 1);
+    weigh(down, 1);
+    weigh(up_left, 0.5F);
+    weigh(up_right, 0.5F);
+    return sum / weight;
   }
 
   static constexpr float kNearest_m = 0.001f;
@@ -101,6 +118,7 @@ class ResidualCoder {
 
   Coder& coder_;
   double step_m_;
+  std::array<float, kNothingKnown - 1> spread_borders_m_{};
   const RangeImage* key_;
   AdaptiveInteger residual_[kContexts];
   AdaptiveByte raw_[4];
