@@ -71,3 +71,15 @@ cmp -s drive.reel before.reel && fail "-f did not overwrite"
 failed "velodyne: is not empty; -f overwrites" simulate -o drive --frames 1 --sensor vlp-16
 run 0 simulate -o drive --frames 1 --sensor vlp-16 -f
 failed "cannot open for writing" encode drive -o no/such/folder/a.reel
+
+# An output that exists survives when there is nothing to put in its place, and is never an input.
+run 0 simulate -o survivors --frames 1 --sensor vlp-16
+sweep=survivors/velodyne/0000000000.bin
+run 0 encode "$sweep" -o kept.reel
+cp kept.reel kept.copy
+head -c 15 "$sweep" >cut.bin
+failed "cut.bin" encode cut.bin -o kept.reel -f
+same_file kept.reel kept.copy
+cp "$sweep" sweep.copy
+failed "is one of the inputs" encode "$sweep" -o "$sweep" -f
+same_file "$sweep" sweep.copy

@@ -154,6 +154,21 @@ std::optional<Error> encode_sweeps(Encoder& encoder, ReelWriter& writer,
   return input_error;
 }
 
+// An existing output is given up only for a new one: not when it is an input itself, nor when there is
+// nothing to encode in the first input.
+Result<void> may_overwrite(const std::filesystem::path& output,
+                           const std::vector<std::filesystem::path>& inputs) {
+  if (!std::filesystem::exists(output)) return {};
+  for (const auto& input : inputs) {
+    std::error_code unknown;
+    if (std::filesystem::equivalent(output, input, unknown)) {
+      return Error{ErrorCode::invalid_argument, output.string() + ": is one of the inputs"};
+    }
+  }
+  const auto first = read_cloud(inputs.front());
+  return first ? Result<void>{} : Result<void>(first.error());
+}
+
 nlohmann::json to_json(const EncodeTotals& totals, const StreamHeader& header) {
   return {{"frames", totals.frames},
           {"points", totals.points},
@@ -243,6 +258,10 @@ int run(const EncodeArguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   std::ofstream file;
   if (!to_stdout) {
+    if (const auto safe = may_overwrite(arguments.output, *inputs); !safe) {
+      print_error(safe.error());
+      return kFailed;
+    }
     file.open(arguments.output, std::ios::binary);
     if (!file) {
       print_error({ErrorCode::io_error, arguments.output + ": cannot open for writing"});
