@@ -1,23 +1,17 @@
 #include "measurement.h"
 
-#include <chrono>
 #include <optional>
 #include <set>
 #include <sstream>
 
 #include "base/parallel.h"
 #include "common/packet_batches.h"
+#include "common/stopwatch.h"
 #include "pointreel/reel.h"
 #include "require.h"
 
 namespace pointreel {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double ms_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 struct EncodedReel {
   std::stringstream bytes;
@@ -49,14 +43,14 @@ EncodedReel encode_reel(const SweepSet& set, const Setting& setting) {
   };
   for (std::size_t i = 0; i < set.sweeps.size(); ++i) {
     PointCloud sweep = set.sweeps[i];  // the encoder keeps it; the copy is not its work
-    const auto start = Clock::now();
+    const Stopwatch start;
     const auto packets = encoder.encode(std::move(sweep), poses.empty() ? std::optional<Pose>{} : poses[i]);
-    reel.encode_ms += ms_since(start);
+    reel.encode_ms += start.elapsed_ms();
     write(packets);
   }
-  const auto start = Clock::now();
+  const Stopwatch start;
   const auto packets = encoder.finish();
-  reel.encode_ms += ms_since(start);
+  reel.encode_ms += start.elapsed_ms();
   write(packets);
   require(writer.finish());
   reel.size = writer.bytes_written();
@@ -71,9 +65,9 @@ double decode_reel(EncodedReel& reel, int threads, const Use& use) {
   PacketBatches batches(reader);
   double decode_ms = 0;
   for (auto batch = batches.next(); !batch.empty(); batch = batches.next()) {
-    const auto start = Clock::now();
+    const Stopwatch start;
     const auto results = decoder.decode(batch);
-    decode_ms += ms_since(start);
+    decode_ms += start.elapsed_ms();
     std::vector<DecodedSweep> sweeps;
     sweeps.reserve(results.size());
     for (const auto& result : results) sweeps.push_back(require(result));

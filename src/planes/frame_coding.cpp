@@ -22,13 +22,6 @@ constexpr double kPlaneStepPerThreshold = 0.7;
 constexpr std::size_t kMaxCellsPerByte = 1 << 13;
 constexpr std::size_t kLeftOutBytes = 64;  // trailing zeros, at most
 
-const std::int32_t* key_marks(const RangeImage& image, const TileLayout& layout, int tile_row,
-                              const KeyFrame& key) {
-  const int key_tile_row = tile_row + (image.first_row - key.image.first_row) / layout.tile_size;
-  if (key_tile_row < 0 || key_tile_row >= key.planes.layout.tile_rows) return nullptr;
-  return &key.planes.run_of_tile[key.planes.layout.index(key_tile_row, 0)];
-}
-
 // Temporal, then spatial pass over one row of tiles; runs from left to right.
 std::vector<PlaneRun> find_runs(const AngularGrid& grid, const RangeImage& image, const TileLayout& layout,
                                 int tile_row, const PlaneTolerance& tolerance, const KeyFrame* key) {
@@ -37,8 +30,7 @@ std::vector<PlaneRun> find_runs(const AngularGrid& grid, const RangeImage& image
     marks[tile] = tile_occupied(image, layout, tile_row, tile) ? kUnfitTile : kEmptyTile;
   }
   std::vector<PlaneRun> runs;
-  if (const std::int32_t* marks_of_key =
-          key != nullptr ? key_marks(image, layout, tile_row, *key) : nullptr) {
+  if (const std::int32_t* marks_of_key = key != nullptr ? key->runs_of_tile_row(image, tile_row) : nullptr) {
     encode_tile_row_temporally(grid, image, layout, tile_row, marks.data(), tolerance, key->planes.runs,
                                marks_of_key, runs);
     for (const PlaneRun& run : runs)

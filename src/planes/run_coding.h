@@ -18,6 +18,15 @@ namespace pointreel {
 struct KeyFrame {
   RangeImage image;  // decoded
   PlaneMap planes;
+
+  // Its runs (or negative marks) at the tiles of a row of another image on the same grid; nullptr where it
+  // has no such row.
+  const std::int32_t* runs_of_tile_row(const RangeImage& other, int tile_row) const {
+    const TileLayout& layout = planes.layout;
+    const int own_row = tile_row + (other.first_row - image.first_row) / layout.tile_size;
+    if (own_row < 0 || own_row >= layout.tile_rows) return nullptr;
+    return &planes.run_of_tile[layout.index(own_row, 0)];
+  }
 };
 
 // Codes a PlaneMap over a known occupancy. A decoder passes a map with layout and an empty run list;
@@ -51,12 +60,9 @@ class RunCoder {
 
  private:
   // Run of the key frame at a tile of this frame, or a negative mark.
-  std::int32_t key_run_at(const RangeImage& occupancy, const TileLayout& layout, int tile_row,
-                          int tile) const {
-    if (key_ == nullptr) return kUnfitTile;
-    const int key_tile_row = tile_row + (occupancy.first_row - key_->image.first_row) / layout.tile_size;
-    if (key_tile_row < 0 || key_tile_row >= key_->planes.layout.tile_rows) return kUnfitTile;
-    return key_->planes.run_of_tile[key_->planes.layout.index(key_tile_row, tile)];
+  std::int32_t key_run_at(const RangeImage& occupancy, int tile_row, int tile) const {
+    const std::int32_t* runs = key_ != nullptr ? key_->runs_of_tile_row(occupancy, tile_row) : nullptr;
+    return runs != nullptr ? runs[tile] : kUnfitTile;
   }
 
   // Adds the runs of one row to map.runs (tiles and kind, no planes yet).
@@ -71,7 +77,7 @@ class RunCoder {
       const std::int32_t wanted =
           Coder::kDecodes ? kUnfitTile : source.run_of_tile[layout.index(tile_row, tile)];
       const PlaneRun* wanted_run = wanted >= 0 ? &source.runs[static_cast<std::size_t>(wanted)] : nullptr;
-      const std::int32_t key_run = key_run_at(occupancy, layout, tile_row, tile);
+      const std::int32_t key_run = key_run_at(occupancy, tile_row, tile);
 
       // Above: 0 nothing or unfit, 1 inside a run, 2 a run starts there (borders of surfaces go on
       // downwards).
@@ -142,7 +148,7 @@ class RunCoder {
     const auto add = [&](const PlaneMap& from, std::int32_t index) {
       if (index >= 0) candidates_.push_back(from.runs[static_cast<std::size_t>(index)].plane);
     };
-    if (key_ != nullptr) add(key_->planes, key_run_at(occupancy, map.layout, run.tile_row, run.first_tile));
+    if (key_ != nullptr) add(key_->planes, key_run_at(occupancy, run.tile_row, run.first_tile));
     if (run.first_tile > 0) add(map, map.run_of_tile[map.layout.index(run.tile_row, run.first_tile - 1)]);
     if (run.tile_row > 0) {
       add(map, map.run_of_tile[map.layout.index(run.tile_row - 1, run.first_tile)]);

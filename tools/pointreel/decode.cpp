@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -12,6 +11,7 @@
 
 #include "base/parallel.h"
 #include "common/packet_batches.h"
+#include "common/stopwatch.h"
 #include "pointreel/console.h"
 #include "pointreel/exit_code.h"
 #include "pointreel/io.h"
@@ -166,7 +166,7 @@ int run(const DecodeArguments& arguments) {
   const int threads = resolve_threads(arguments.threads);
   const SweepFiles files(arguments.output, *format, arguments.force);
   Written written;
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch start;
   if (arguments.frames.empty() || arguments.input == "-") {
     PacketBatches batches(reader);
     for (auto batch = batches.next(); !batch.empty(); batch = batches.next()) {
@@ -184,7 +184,7 @@ int run(const DecodeArguments& arguments) {
     }
     if (!decode_batch(*decoder, *packets, *wanted, files, threads, written)) return kFailed;
   }
-  const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double wall_s = start.elapsed_ms() / 1000;
 
   if (written.frames == 0 && !arguments.frames.empty() && !written.lost_some) {
     print_error({ErrorCode::invalid_argument,

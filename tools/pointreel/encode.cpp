@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -12,6 +11,7 @@
 #include "base/parallel.h"
 #include "common/motion_input.h"
 #include "common/quality.h"
+#include "common/stopwatch.h"
 #include "pointreel/console.h"
 #include "pointreel/exit_code.h"
 #include "pointreel/io.h"
@@ -108,10 +108,6 @@ struct EncodeTotals {
 std::optional<Error> encode_sweeps(Encoder& encoder, ReelWriter& writer,
                                    const std::vector<std::filesystem::path>& inputs,
                                    const std::vector<Pose>& poses, int threads, EncodeTotals& totals) {
-  using Clock = std::chrono::steady_clock;
-  const auto ms_since = [](Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-  };
   Progress progress("encoding", inputs.size());
   double pending_ms = 0;
   const auto write = [&](const Result<std::vector<Packet>>& packets) -> std::optional<Error> {
@@ -138,17 +134,17 @@ std::optional<Error> encode_sweeps(Encoder& encoder, ReelWriter& writer,
       if (begin + i == 0) {
         for (const Field& field : clouds[i]->fields) totals.fields_left_out.push_back(field.name);
       }
-      const auto start = Clock::now();
+      const Stopwatch start;
       const auto packets =
           encoder.encode(*std::move(clouds[i]), poses.empty() ? std::optional<Pose>{} : poses[begin + i]);
-      pending_ms += ms_since(start);
+      pending_ms += start.elapsed_ms();
       if (auto error = write(packets)) return error;
       progress.advance_to(begin + i + 1);
     }
   }
-  const auto start = Clock::now();
+  const Stopwatch start;
   const auto packets = encoder.finish();
-  pending_ms += ms_since(start);
+  pending_ms += start.elapsed_ms();
   if (auto error = write(packets)) return error;
   if (auto finished = writer.finish(); !finished) return finished.error();
   return input_error;
@@ -255,7 +251,7 @@ int run(const EncodeArguments& arguments) {
     return kFailed;
   }
 
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch start;
   std::ofstream file;
   if (!to_stdout) {
     if (const auto safe = may_overwrite(arguments.output, *inputs); !safe) {
@@ -279,7 +275,7 @@ int run(const EncodeArguments& arguments) {
     return kFailed;
   }
   totals.bytes = writer->bytes_written();
-  totals.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  totals.wall_s = start.elapsed_ms() / 1000;
   if (arguments.json) {
     fmt::print("{}\n", to_json(totals, encoder->header()).dump(2));
   } else {

@@ -2,12 +2,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "common/packet_batches.h"
 #include "common/quality.h"
+#include "common/stopwatch.h"
 #include "pointreel/console.h"
 #include "pointreel/exit_code.h"
 #include "pointreel/io.h"
@@ -16,12 +16,6 @@
 
 namespace pointreel {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double ms_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 struct VerifyArguments {
   std::string reel;
@@ -53,9 +47,9 @@ bool bound_held(const Verification& verification, const StreamHeader& header) {
 Result<void> verify_batch(std::span<const Packet> batch, const std::vector<std::filesystem::path>& originals,
                           Decoder& decoder, const StreamHeader& header, int threads,
                           Verification& verification) {
-  const auto start = Clock::now();
+  const Stopwatch start;
   auto sweeps = decoder.decode(batch);
-  const double decode_ms = ms_since(start) / static_cast<double>(batch.size());
+  const double decode_ms = start.elapsed_ms() / static_cast<double>(batch.size());
   for (const auto& sweep : sweeps) {
     if (!sweep) return sweep.error();
   }
@@ -77,14 +71,14 @@ Result<void> verify_batch(std::span<const Packet> batch, const std::vector<std::
     if (!pairs) return Error{pairs.error().code, path.string() + ": " + pairs.error().message};
     verification.quality.merge(measure_quality(*original, *sweep, *pairs));
     ++verification.frames;
-    const auto encode_start = Clock::now();
+    const Stopwatch encode_start;
     if (const auto packets = encoder->encode(*std::move(original), sweep->T_key_sensor); !packets)
       return packets.error();
-    encode_ms += ms_since(encode_start);
+    encode_ms += encode_start.elapsed_ms();
   }
-  const auto encode_start = Clock::now();
+  const Stopwatch encode_start;
   if (const auto packets = encoder->finish(); !packets) return packets.error();
-  encode_ms = (encode_ms + ms_since(encode_start)) / static_cast<double>(sweeps.size());
+  encode_ms = (encode_ms + encode_start.elapsed_ms()) / static_cast<double>(sweeps.size());
   for (std::size_t i = 0; i < sweeps.size(); ++i) {
     verification.decode_ms.push_back(decode_ms);
     verification.encode_ms.push_back(encode_ms);
