@@ -57,6 +57,11 @@ class BitEncoder {
     coder_.encode(bit, 32768);
     return bit;
   }
+  // With a probability the caller models itself, in [kMinProbability, 65536 - kMinProbability].
+  bool code_with(bool bit, Probability16 p_one) {
+    coder_.encode(bit, p_one);
+    return bit;
+  }
   std::vector<std::uint8_t> finish() { return coder_.finish(); }
   std::size_t size() const { return coder_.size(); }
 
@@ -75,6 +80,7 @@ class BitDecoder {
     return bit;
   }
   bool code_even(bool /*ignored*/ = false) { return coder_.decode(32768); }
+  bool code_with(bool /*ignored*/, Probability16 p_one) { return coder_.decode(p_one); }
   bool overran() const { return coder_.overran(); }
 
  private:

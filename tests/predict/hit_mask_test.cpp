@@ -1,0 +1,1 @@
+#include "predict/hit_mask.h"
