@@ -22,10 +22,10 @@ constexpr int kNearby = 60;
 constexpr int kFarApart = 775;  // a factor of 1.3
 
 // Class of the step between two ranges: 0 unknown, 1 same surface, 2 slanted, 3 an edge.
-std::uint32_t edge_class(int a, int b) {
-  if (a == 0 || b == 0) return 0;
+std::uint8_t edge_class(int a, int b) {
   const int step = std::abs(a - b);
-  return 1u + (step >= kSameSurface ? 1u : 0u) + (step >= kSlantedSurface ? 1u : 0u);
+  const int known = 1 + (step >= kSameSurface ? 1 : 0) + (step >= kSlantedSurface ? 1 : 0);
+  return static_cast<std::uint8_t>(a == 0 || b == 0 ? 0 : known);
 }
 
 // How the last range above lies to the last one in the row: 0 near, 1 behind, 2 far behind, 3 before, 4 far
@@ -113,10 +113,7 @@ HitMaskState HitMaskState::from_priors(int rows) {
 
 HitMaskModel::HitMaskModel(const HitMaskBand& band, std::span<const std::uint8_t> reference,
                            HitMaskState state)
-    : band_(band),
-      reference_(reference),
-      contexts_(reference.empty() ? HitMaskState::kReference : HitMaskState::kContexts),
-      state_(std::move(state)) {
+    : band_(band), reference_(reference), state_(std::move(state)) {
   const auto columns = static_cast<std::size_t>(band_.columns);
   // Nothing is known above the band: hits are the better guess than misses.
   for (Row* row : {&current_, &above_, &above2_}) {
@@ -124,6 +121,8 @@ HitMaskModel::HitMaskModel(const HitMaskBand& band, std::span<const std::uint8_t
     row->ranges.assign(columns, 0);
     row->edges.assign(columns, 0);
   }
+  for (auto& known : known_) known.assign(columns, 0);
+  known_mixer_.assign(columns, 0);
   column_range_.assign(columns, 0);
   column_history_.assign(columns, 0xFF);
 }
@@ -132,20 +131,67 @@ void HitMaskModel::begin_row() {
   if (row_ >= 0) finish_row();
   ++row_;
   column_ = 0;
-  window_above_ = window_above2_ = window_sum_ = 0;
-  for (std::size_t i = 0; i < kPadding + kAhead; ++i) {
-    window_above_ = window_above_ << 1 | above_.hits[i];
-    window_above2_ = window_above2_ << 1 | above2_.hits[i];
-    window_sum_ += above_.hits[i] + above2_.hits[i];
-  }
   // The row's last cells, left of column 0 on the cylinder, are not known yet: take those above.
-  window_row_ = window_above_ >> kAhead;
+  row_hits_ = 0;
+  for (std::size_t i = 0; i < kPadding; ++i) row_hits_ = row_hits_ << 1 | above_.hits[i];
   run_ = 1;
   row_range_ = 0;
-  if (!reference_.empty()) {
-    const std::uint8_t* cells =
-        reference_.data() + static_cast<std::size_t>(row_) * static_cast<std::size_t>(band_.columns);
-    reference_window_ = static_cast<std::uint32_t>(cells[band_.columns - 1]) << 3 | cells[0];
+  know_hits_above();
+  know_density();
+  if (!reference_.empty()) know_reference();
+}
+
+void HitMaskModel::know_hits_above() {
+  const auto columns = static_cast<std::size_t>(band_.columns);
+  const std::uint8_t* above = above_.hits.data() + kPadding;
+  const std::uint8_t* above2 = above2_.hits.data() + kPadding;
+  const auto row = static_cast<unsigned>(row_) << 3;
+  for (std::size_t c = 0; c < columns; ++c)
+    known_[HitMaskState::kRow][c] = static_cast<std::uint16_t>(row | above[c] << 1 | above2[c] << 2);
+  for (std::size_t c = 0; c < columns; ++c) {
+    known_[HitMaskState::kRuns][c] = static_cast<std::uint16_t>(
+        above[c - 1] << 8 | above[c] << 7 | above[c + 1] << 6 | above[c + 2] << 5 | above[c + 3] << 4);
+  }
+  const unsigned mixers = reference_.empty() ? 0 : 32;
+  for (std::size_t c = 0; c < columns; ++c) {
+    known_mixer_[c] =
+        static_cast<std::uint8_t>(mixers | above[c] << 1 | above[c + 1] << 2 | above[c - 1] << 4);
+  }
+  unsigned edge_before = above2_.edges[columns - 1];
+  for (std::size_t c = 0; c < columns; ++c) {
+    known_[HitMaskState::kEdges][c] = static_cast<std::uint16_t>(above[c] << 1 | above2_.edges[c] << 2 |
+                                                                 edge_before << 4 | above_.edges[c] << 8);
+    edge_before = above2_.edges[c];
+  }
+}
+
+void HitMaskModel::know_density() {
+  const auto columns = static_cast<std::size_t>(band_.columns);
+  const std::uint8_t* above = above_.hits.data() + kPadding;
+  const std::uint8_t* above2 = above2_.hits.data() + kPadding;
+  unsigned hits = 0;  // within kAhead columns in both rows
+  for (int i = -kPadding; i < kAhead; ++i) hits += above[i] + above2[i];
+  for (std::size_t c = 0; c < columns; ++c) {
+    hits += above[c + kAhead] + above2[c + kAhead];
+    hits -= above[c - kPadding] + above2[c - kPadding];
+    known_[HitMaskState::kDensity][c] = static_cast<std::uint16_t>(
+        kColumnShares[column_history_[c]] | kWindowShares[hits] << 3 | above[c] << 8 | above[c + 1] << 9);
+  }
+}
+
+void HitMaskModel::know_reference() {
+  const auto columns = static_cast<std::size_t>(band_.columns);
+  const std::uint8_t* cells = reference_.data() + static_cast<std::size_t>(row_) * columns;
+  const std::uint8_t* above = above_.hits.data() + kPadding;
+  const auto quarter =
+      static_cast<unsigned>((band_.first_row + row_) * 4 / std::max(1, band_.image_rows)) & 3;
+  unsigned west = cells[columns - 1];
+  for (std::size_t c = 0; c < columns; ++c) {
+    const unsigned east = cells[c + 1 < columns ? c + 1 : 0];
+    known_[HitMaskState::kReference][c] = static_cast<std::uint16_t>(
+        (cells[c] & 7u) | (west & kPreviousHit) << 1 | (east & kPreviousHit) << 2 | above[c] << 6 |
+        ((west & kWarped) != 0 ? 1u : 0u) << 7 | ((east & kWarped) != 0 ? 1u : 0u) << 8 | quarter << 9);
+    west = cells[c];
   }
 }
 
@@ -155,78 +201,50 @@ void HitMaskModel::finish_row() {
     current_.hits[i] = current_.hits[kPadding + (columns * kPadding + i - kPadding) % columns];
     current_.hits[kPadding + columns + i] = current_.hits[kPadding + i % columns];
   }
-  for (std::size_t c = 0; c < columns; ++c) {
-    const std::size_t next = c + 1 < columns ? c + 1 : 0;
-    current_.edges[c] = static_cast<std::uint8_t>(edge_class(current_.ranges[c], current_.ranges[next]));
-  }
+  for (std::size_t c = 0; c + 1 < columns; ++c)
+    current_.edges[c] = edge_class(current_.ranges[c], current_.ranges[c + 1]);
+  current_.edges[columns - 1] = edge_class(current_.ranges[columns - 1], current_.ranges[0]);
   std::swap(above2_, above_);
   std::swap(above_, current_);
 }
 
 Probability16 HitMaskModel::predict() {
   const auto c = static_cast<std::size_t>(column_);
-  const auto columns = static_cast<std::size_t>(band_.columns);
-  const std::size_t before = c > 0 ? c - 1 : columns - 1;
-
-  const std::uint8_t entering = above_.hits[kPadding + c + kAhead];
-  const std::uint8_t entering2 = above2_.hits[kPadding + c + kAhead];
-  window_above_ = window_above_ << 1 | entering;
-  window_above2_ = window_above2_ << 1 | entering2;
-  const std::uint32_t window_sum = window_sum_ + entering + entering2 - above_.hits[c] - above2_.hits[c];
-  window_sum_ = window_sum;
-
-  const std::uint32_t west = window_row_ & 1;
-  const std::uint32_t north = window_above_ >> kAhead & 1;
-  const std::uint32_t north_east = window_above_ >> (kAhead - 1) & 1;
-  const std::uint32_t north_west = window_above_ >> (kAhead + 1) & 1;
-  const std::uint32_t north2 = window_above2_ >> kAhead & 1;
-  const std::uint32_t west_north = west | north << 1;
-
+  const std::size_t before = c > 0 ? c - 1 : static_cast<std::size_t>(band_.columns) - 1;
+  const std::uint32_t west = row_hits_ & 1;
   const LogRange range_above = column_range_[c];
+
+  // What is known of the rows above, and on top of it what the row itself adds.
   std::array<std::uint32_t, HitMaskState::kContexts> context;
-  context[HitMaskState::kRange] = west_north | north2 << 2 |
+  for (std::size_t i = HitMaskState::kRuns; i < HitMaskState::kContexts; ++i) context[i] = known_[i][c];
+  context[HitMaskState::kRange] = (context[HitMaskState::kRow] & 6) | west |
                                   range_class(row_range_ != 0 ? row_range_ : range_above) << 3 |
                                   order_class(range_above, row_range_) << 7;
-  context[HitMaskState::kRuns] = run_class(run_) | west << 3 | (window_above_ >> (kAhead - 3) & 31) << 4;
-  context[HitMaskState::kRow] = static_cast<std::uint32_t>(row_) << 3 | west_north | north2 << 2;
-  context[HitMaskState::kEdges] = west_north | static_cast<std::uint32_t>(above2_.edges[c]) << 2 |
-                                  static_cast<std::uint32_t>(above2_.edges[before]) << 4 |
-                                  edge_class(row_range_, above2_.ranges[before]) << 6 |
-                                  static_cast<std::uint32_t>(above_.edges[c]) << 8;
-  context[HitMaskState::kDensity] = static_cast<std::uint32_t>(kColumnShares[column_history_[c]]) |
-                                    static_cast<std::uint32_t>(kWindowShares[window_sum]) << 3 |
-                                    static_cast<std::uint32_t>(kRowShares[window_row_ & 15]) << 6 |
-                                    north << 8 | north_east << 9;
-  if (!reference_.empty()) {
-    const std::size_t next = c + 1 < columns ? c + 1 : 0;
-    reference_window_ = reference_window_ << 3 | reference_[static_cast<std::size_t>(row_) * columns + next];
-    const std::uint32_t east = reference_window_ & 7;
-    const std::uint32_t here = reference_window_ >> 3 & 7;
-    const std::uint32_t left = reference_window_ >> 6 & 7;
-    const auto quarter =
-        static_cast<std::uint32_t>((band_.first_row + row_) * 4 / std::max(1, band_.image_rows));
-    context[HitMaskState::kReference] = here | (left >> 2) << 3 | (east >> 2) << 4 | west_north << 5 |
-                                        ((left & kWarped) != 0 ? 1u : 0u) << 7 |
-                                        ((east & kWarped) != 0 ? 1u : 0u) << 8 | (quarter & 3) << 9;
-  }
+  context[HitMaskState::kRuns] |= run_class(run_) | west << 3;
+  context[HitMaskState::kRow] |= west;
+  context[HitMaskState::kEdges] |=
+      west | static_cast<std::uint32_t>(edge_class(row_range_, above2_.ranges[before])) << 6;
+  context[HitMaskState::kDensity] |= static_cast<std::uint32_t>(kRowShares[row_hits_ & 15]) << 6;
+  context[HitMaskState::kReference] |= west << 5;
 
-  for (std::size_t i = 0; i < contexts_; ++i) {
+  for (std::size_t i = 0; i < HitMaskState::kContexts; ++i) {
     slots_[i] = &state_.bits[i][context[i]];
     inputs_[i] = slots_[i]->stretch();
   }
-  mixer_ = &state_.mixers[west_north | north_east << 2 | (window_row_ & 2) << 2 | north_west << 4 |
-                          (reference_.empty() ? 0u : 32u)];
+  if (reference_.empty()) inputs_[HitMaskState::kReference] = 0;
+  mixer_ = &state_.mixers[known_mixer_[c] | west | (row_hits_ & 2) << 2];
   return mixer_->p_one(inputs_);
 }
 
 void HitMaskModel::learn(bool hit, Probability16 p_one) {
   mixer_->update(inputs_, p_one, hit);
-  for (std::size_t i = 0; i < contexts_; ++i) slots_[i]->update(hit);
+  for (std::size_t i = 0; i < HitMaskState::kReference; ++i) slots_[i]->update(hit);
+  if (!reference_.empty()) slots_[HitMaskState::kReference]->update(hit);
 
   const auto c = static_cast<std::size_t>(column_);
   const std::uint32_t bit = hit ? 1 : 0;
-  run_ = (window_row_ & 1) == bit ? run_ + 1 : 1;
-  window_row_ = window_row_ << 1 | bit;
+  run_ = (row_hits_ & 1) == bit ? run_ + 1 : 1;
+  row_hits_ = row_hits_ << 1 | bit;
   column_history_[c] = static_cast<std::uint8_t>(column_history_[c] << 1 | bit);
   current_.hits[kPadding + c] = static_cast<std::uint8_t>(bit);
   current_.ranges[c] = 0;

@@ -80,24 +80,25 @@ class HitMaskModel {
   Probability16 predict();
   void learn(bool hit, Probability16 p_one);
   void finish_row();
+  void know_hits_above();
+  void know_density();
+  void know_reference();
 
   HitMaskBand band_;
   std::span<const std::uint8_t> reference_;
-  std::size_t contexts_;  // without a reference its context, the last one, is left out
   HitMaskState state_;
 
   Row current_, above_, above2_;
   std::vector<LogRange> column_range_;        // of the last hit in the column
   std::vector<std::uint8_t> column_history_;  // hits of the eight cells above, the nearest in bit 0
 
-  // Windows ending kAhead columns ahead, the newest column in bit 0.
-  std::uint32_t window_above_ = 0;
-  std::uint32_t window_above2_ = 0;
-  std::uint32_t window_row_ = 0;  // this row's hits so far
-  std::uint32_t window_sum_ = 0;  // hits within kAhead columns in the two rows above
-  std::uint32_t run_ = 0;         // cells equal to the last one
-  LogRange row_range_ = 0;        // of the last hit in the row
-  std::uint32_t reference_window_ = 0;
+  // The parts of the contexts that the rows above and the reference give, by column.
+  std::array<std::vector<std::uint16_t>, HitMaskState::kContexts> known_;
+  std::vector<std::uint8_t> known_mixer_;
+
+  std::uint32_t row_hits_ = 0;  // this row's hits so far, the last one in bit 0
+  std::uint32_t run_ = 0;       // cells equal to the last one
+  LogRange row_range_ = 0;      // of the last hit in the row
   int row_ = -1;
   int column_ = 0;
 
