@@ -13,7 +13,7 @@ namespace {
 constexpr int kAhead = 8;
 constexpr int kPadding = kAhead + 1;
 
-constexpr std::uint32_t kWarped = kWarpedHit | kWarpedFilled;
+constexpr int kWarped = kWarpedHit | kWarpedFilled;
 
 // Steps between log ranges, and their classes.
 constexpr int kSameSurface = 30;      // 1 to 1.5 %
@@ -145,19 +145,19 @@ void HitMaskModel::know_hits_above() {
   const auto columns = static_cast<std::size_t>(band_.columns);
   const std::uint8_t* above = above_.hits.data() + kPadding;
   const std::uint8_t* above2 = above2_.hits.data() + kPadding;
-  const auto row = static_cast<unsigned>(row_) << 3;
+  const int row = row_ << 3;
   for (std::size_t c = 0; c < columns; ++c)
     known_[HitMaskState::kRow][c] = static_cast<std::uint16_t>(row | above[c] << 1 | above2[c] << 2);
   for (std::size_t c = 0; c < columns; ++c) {
     known_[HitMaskState::kRuns][c] = static_cast<std::uint16_t>(
         above[c - 1] << 8 | above[c] << 7 | above[c + 1] << 6 | above[c + 2] << 5 | above[c + 3] << 4);
   }
-  const unsigned mixers = reference_.empty() ? 0 : 32;
+  const int mixers = reference_.empty() ? 0 : 32;
   for (std::size_t c = 0; c < columns; ++c) {
     known_mixer_[c] =
         static_cast<std::uint8_t>(mixers | above[c] << 1 | above[c + 1] << 2 | above[c - 1] << 4);
   }
-  unsigned edge_before = above2_.edges[columns - 1];
+  int edge_before = above2_.edges[columns - 1];
   for (std::size_t c = 0; c < columns; ++c) {
     known_[HitMaskState::kEdges][c] = static_cast<std::uint16_t>(above[c] << 1 | above2_.edges[c] << 2 |
                                                                  edge_before << 4 | above_.edges[c] << 8);
@@ -169,13 +169,14 @@ void HitMaskModel::know_density() {
   const auto columns = static_cast<std::size_t>(band_.columns);
   const std::uint8_t* above = above_.hits.data() + kPadding;
   const std::uint8_t* above2 = above2_.hits.data() + kPadding;
-  unsigned hits = 0;  // within kAhead columns in both rows
+  int hits = 0;  // within kAhead columns in both rows
   for (int i = -kPadding; i < kAhead; ++i) hits += above[i] + above2[i];
   for (std::size_t c = 0; c < columns; ++c) {
     hits += above[c + kAhead] + above2[c + kAhead];
     hits -= above[c - kPadding] + above2[c - kPadding];
     known_[HitMaskState::kDensity][c] = static_cast<std::uint16_t>(
-        kColumnShares[column_history_[c]] | kWindowShares[hits] << 3 | above[c] << 8 | above[c + 1] << 9);
+        kColumnShares[column_history_[c]] | kWindowShares[static_cast<std::size_t>(hits)] << 3 |
+        above[c] << 8 | above[c + 1] << 9);
   }
 }
 
@@ -183,14 +184,13 @@ void HitMaskModel::know_reference() {
   const auto columns = static_cast<std::size_t>(band_.columns);
   const std::uint8_t* cells = reference_.data() + static_cast<std::size_t>(row_) * columns;
   const std::uint8_t* above = above_.hits.data() + kPadding;
-  const auto quarter =
-      static_cast<unsigned>((band_.first_row + row_) * 4 / std::max(1, band_.image_rows)) & 3;
-  unsigned west = cells[columns - 1];
+  const int quarter = ((band_.first_row + row_) * 4 / std::max(1, band_.image_rows)) & 3;
+  int west = cells[columns - 1];
   for (std::size_t c = 0; c < columns; ++c) {
-    const unsigned east = cells[c + 1 < columns ? c + 1 : 0];
+    const int east = cells[c + 1 < columns ? c + 1 : 0];
     known_[HitMaskState::kReference][c] = static_cast<std::uint16_t>(
-        (cells[c] & 7u) | (west & kPreviousHit) << 1 | (east & kPreviousHit) << 2 | above[c] << 6 |
-        ((west & kWarped) != 0 ? 1u : 0u) << 7 | ((east & kWarped) != 0 ? 1u : 0u) << 8 | quarter << 9);
+        (cells[c] & 7) | (west & kPreviousHit) << 1 | (east & kPreviousHit) << 2 | above[c] << 6 |
+        ((west & kWarped) != 0 ? 1 : 0) << 7 | ((east & kWarped) != 0 ? 1 : 0) << 8 | quarter << 9);
     west = cells[c];
   }
 }
@@ -245,7 +245,7 @@ void HitMaskModel::learn(bool hit, Probability16 p_one) {
   const std::uint32_t bit = hit ? 1 : 0;
   run_ = (row_hits_ & 1) == bit ? run_ + 1 : 1;
   row_hits_ = row_hits_ << 1 | bit;
-  column_history_[c] = static_cast<std::uint8_t>(column_history_[c] << 1 | bit);
+  column_history_[c] = static_cast<std::uint8_t>(column_history_[c] << 1 | (hit ? 1 : 0));
   current_.hits[kPadding + c] = static_cast<std::uint8_t>(bit);
   current_.ranges[c] = 0;
   ++column_;

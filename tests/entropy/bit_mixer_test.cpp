@@ -32,7 +32,7 @@ TEST(CountedBit, IsTheMeanOfTheBitsSeen) {
   for (int i = 0; i < 300; ++i) bit.update(i % 3 == 0);
   EXPECT_NEAR(bit.p_one() / 65536.0, 1 / 3.0, 0.01);
   EXPECT_EQ(bit.count(), 300u);
-  for (int i = 0; i < 3000; ++i) bit.update(true);
+  for (int i = 0; i < 10'000; ++i) bit.update(true);
   EXPECT_EQ(bit.count(), CountedBit::kMaxCount);
   EXPECT_GT(bit.p_one(), 60000u);
 }
@@ -40,13 +40,13 @@ TEST(CountedBit, IsTheMeanOfTheBitsSeen) {
 TEST(BitMixer, LearnsWhichInputToTrust) {
   BitMixer<2> mixer;
   Probability16 p_one = 32768;
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < 10'000; ++i) {
     const bool bit = i % 7 < 3;
     const BitMixer<2>::Inputs inputs = {bit ? 300 : -300, i % 2 == 0 ? 300 : -300};
     p_one = mixer.p_one(inputs);
     mixer.update(inputs, p_one, bit);
-    if (i > 2900) {
-      EXPECT_TRUE(bit ? p_one > 60000 : p_one < 5500) << i;
+    if (i > 9900) {
+      EXPECT_TRUE(bit ? p_one > 50000 : p_one < 15500) << i;
     }
   }
   EXPECT_GT(mixer.weight(0), 4 * std::abs(mixer.weight(1)));
