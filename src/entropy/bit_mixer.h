@@ -65,8 +65,13 @@ inline Probability16 squash(Stretch stretch) {
   return bit_mixer_detail::kSquash[static_cast<std::size_t>(stretch + kMaxStretch)];
 }
 
+// The stretch of a probability.
+inline Stretch stretch(Probability16 p_one) {
+  return bit_mixer_detail::kStretch[p_one >> (kProbabilityBits - bit_mixer_detail::kStretchIndexBits)];
+}
+
 // P(1) as the mean of the bits seen, a prior counting as a number of them: the n-th bit moves it by 1 / (n
-// + 1.5).
+// + 1.5), until n reaches a limit.
 class CountedBit {
  public:
   static constexpr std::uint32_t kMaxCount = 1023;
@@ -80,12 +85,13 @@ class CountedBit {
     return bit_mixer_detail::kStretch[state_ >> (32 - bit_mixer_detail::kStretchIndexBits)];
   }
 
+  template <std::uint32_t kLimit = kMaxCount>
   void update(bool bit) {
     const std::uint32_t n = count();
     const auto p = static_cast<std::int64_t>(state_ >> kCountBits);
     const std::int64_t target = bit ? (1 << kFractionBits) - 1 : 0;
     const std::int64_t moved = p + (((target - p) * kRates[n]) >> 16);
-    state_ = static_cast<std::uint32_t>(moved) << kCountBits | (n + (n < kMaxCount ? 1 : 0));
+    state_ = static_cast<std::uint32_t>(moved) << kCountBits | (n + (n < kLimit ? 1 : 0));
   }
 
  private:
@@ -102,7 +108,7 @@ class CountedBit {
 };
 
 // One set of weights, for the inputs that go with it.
-template <int kInputs>
+template <std::size_t kInputs>
 class BitMixer {
  public:
   using Inputs = std::array<Stretch, kInputs>;
@@ -119,7 +125,9 @@ class BitMixer {
     return std::clamp(squash(static_cast<Stretch>(mixed)), kMinProbability, 65536 - kMinProbability);
   }
 
-  // `p_one` is what the mixer gave for these inputs.
+  // `p_one` is what the mixer gave for these inputs. Weights move by error * input / 2^kRateShift; 17 is
+  // about 0.002 of the gradient.
+  template <int kRateShift = 17>
   void update(const Inputs& inputs, Probability16 p_one, bool bit) {
     const std::int32_t error = (bit ? 65536 : 0) - static_cast<std::int32_t>(p_one);
     for (std::size_t i = 0; i < kInputs; ++i) {
@@ -129,7 +137,6 @@ class BitMixer {
   }
 
  private:
-  static constexpr int kRateShift = 17;              // about 0.002 of the gradient
   static constexpr std::int32_t kLimit = 16 * kOne;  // whatever the bytes say, nothing overflows
 
   std::array<std::int32_t, kInputs> weights_{};
