@@ -1,0 +1,276 @@
+#include "fields/field_coding.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+
+#include "entropy/wide_integer.h"
+#include "fields/key_alphabet.h"
+#include "fields/residual_coding.h"
+#include "fields/symbol_coding.h"
+#include "fields/value_keys.h"
+
+namespace pointreel {
+namespace {
+
+enum class FieldMethod : std::uint8_t { constant, symbols, residuals };
+
+// The values of a sweep, as ascending x (KeyMapping), and what their symbols learned. Good for a later sweep,
+// too, as long as that has no other values.
+struct Alphabet {
+  KeyMapping mapping;  // base 0, unit 1
+  std::vector<std::uint64_t> keys;
+  SymbolModel model;
+};
+
+}  // namespace
+
+struct FieldMemory::State {
+  std::optional<Alphabet> alphabet;
+  ResidualModel residuals;
+};
+
+FieldMemory::FieldMemory() : state_(std::make_unique<State>()) {}
+FieldMemory::~FieldMemory() = default;
+FieldMemory::FieldMemory(FieldMemory&&) noexcept = default;
+FieldMemory& FieldMemory::operator=(FieldMemory&&) noexcept = default;
+
+namespace {
+
+// Bits of known number, each as likely as not.
+template <class Coder>
+std::uint64_t code_plain(Coder& coder, std::uint64_t value, int bits) {
+  std::uint64_t result = 0;
+  for (int bit = bits; bit-- > 0;) result = (result << 1) | (coder.code_even((value >> bit) & 1u) ? 1u : 0u);
+  return result;
+}
+
+template <class Coder>
+void code_mapping(Coder& coder, KeyMapping& mapping) {
+  mapping.multiples = coder.code_even(mapping.multiples);
+  if (mapping.multiples) {
+    mapping.multiplier =
+        std::bit_cast<double>(code_plain(coder, std::bit_cast<std::uint64_t>(mapping.multiplier), 64));
+    mapping.divisor =
+        std::bit_cast<double>(code_plain(coder, std::bit_cast<std::uint64_t>(mapping.divisor), 64));
+  }
+  mapping.base = code_plain(coder, mapping.base, 64);
+  AdaptiveWideInteger unit(0);
+  mapping.unit = unit.code(coder, mapping.unit);
+}
+
+// False when the bytes cannot be right.
+template <class Coder>
+bool code_exceptions(Coder& coder, std::vector<KeyException>& exceptions, std::size_t points) {
+  AdaptiveWideInteger counts(0);
+  const std::uint64_t count = counts.code(coder, exceptions.size());
+  if (count > points) return false;
+  AdaptiveWideInteger gaps(3);
+  AdaptiveBit repeats;
+  std::uint64_t next = 0, bits = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if constexpr (Coder::kDecodes) {
+      if (coder.overran()) return false;
+      exceptions.push_back({});
+    }
+    KeyException& exception = exceptions[i];
+    const std::uint64_t gap = gaps.code(coder, exception.point - next);
+    if (gap >= points - next) return false;
+    exception.point = static_cast<std::uint32_t>(next + gap);
+    next = exception.point + std::uint64_t{1};
+    if (!coder.code(repeats, exception.bits == bits)) bits = code_plain(coder, exception.bits, 64);
+    exception.bits = bits;
+  }
+  return true;
+}
+
+// The distinct keys (ascending; `keys` is empty in a decoder) and their weights, powers of two about as large
+// as the counts.
+template <class Coder>
+bool code_alphabet(Coder& coder, std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& weights) {
+  AdaptiveWideInteger counts(0);
+  const std::uint64_t count = counts.code(coder, keys.size());
+  if (count == 0 || count > kMaxSymbols) return false;
+  keys.resize(count);
+  weights.resize(count);
+  AdaptiveWideInteger gaps(4);
+  AdaptiveInteger changes;
+  std::uint64_t before = ~std::uint64_t{0};
+  std::int32_t length = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    keys[i] = before + 1 + gaps.code(coder, keys[i] - before - 1);
+    before = keys[i];
+    length += changes.code(coder, static_cast<std::int32_t>(std::bit_width(weights[i])) - length);
+    if (length < 1 || length > 32) return false;
+    weights[i] = std::uint64_t{1} << (length - 1);
+  }
+  return true;
+}
+
+KeyMapping without_reduction(KeyMapping mapping) {
+  mapping.base = 0;
+  mapping.unit = 1;
+  return mapping;
+}
+
+// Fills the gaps of a nearly dense alphabet: the table shortens, and a later sweep finds its values in it.
+void fill_gaps(std::vector<std::uint64_t>& keys) {
+  const std::uint64_t span = keys.back() - keys.front();
+  if (span >= keys.size() + keys.size() / 2 || span >= kMaxSymbols) return;
+  const std::uint64_t first = keys.front();
+  keys.resize(span + 1);
+  std::iota(keys.begin(), keys.end(), first);
+}
+
+// The part of the bytes that both methods share is the mapping; `coder` has read or written the method
+// before.
+template <class Coder>
+bool code_symbols(Coder& coder, KeyedValues& keyed, std::vector<std::uint64_t> alphabet,
+                  const PointLayout& layout, std::optional<Alphabet>& known) {
+  std::vector<std::uint32_t> symbols(keyed.keys.size());  // by the output's order
+  bool reuse = false;
+  if constexpr (!Coder::kDecodes) {
+    const auto x_of = [&](std::uint64_t key) { return keyed.mapping.base + keyed.mapping.unit * key; };
+    reuse = known && known->mapping == without_reduction(keyed.mapping) &&
+            std::all_of(alphabet.begin(), alphabet.end(), [&](std::uint64_t key) {
+              return std::binary_search(known->keys.begin(), known->keys.end(), x_of(key));
+            });
+    if (reuse) {
+      for (std::uint64_t& key : keyed.keys) key = x_of(key);
+    } else {
+      fill_gaps(alphabet);
+    }
+    symbols = symbols_of(keyed.keys, reuse ? known->keys : alphabet);
+  }
+  reuse = coder.code_even(reuse);
+  if (reuse && !known) return false;
+  if (!reuse) {
+    code_mapping(coder, keyed.mapping);
+    std::vector<std::uint64_t> weights(alphabet.size(), 1);
+    for (std::size_t i = 0; i < symbols.size() && !Coder::kDecodes; ++i) ++weights[symbols[i]];
+    if (!code_alphabet(coder, alphabet, weights)) return false;
+    for (std::uint64_t& key : alphabet) key = keyed.mapping.base + keyed.mapping.unit * key;
+    known.emplace(
+        Alphabet{without_reduction(keyed.mapping), std::move(alphabet), SymbolModel(weights, layout.rows())});
+  }
+  keyed.mapping = known->mapping;
+
+  std::vector<std::uint32_t> in_raster(symbols.size());
+  const auto places = layout.raster();
+  for (std::size_t i = 0; i < places.size(); ++i) in_raster[i] = symbols[places[i].point];
+  known->model.code(coder, layout, in_raster);
+  if constexpr (Coder::kDecodes) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (in_raster[i] >= known->keys.size()) return false;
+      keyed.keys[places[i].point] = known->keys[in_raster[i]];
+    }
+  }
+  return true;
+}
+
+// All of a field; `plan` says what a decoder reads. False when the bytes cannot be right.
+struct Plan {
+  FieldMethod method = FieldMethod::constant;
+  KeyPredictor predictor = KeyPredictor::before;
+  std::vector<std::uint64_t> alphabet;
+};
+
+template <class Coder>
+bool code_field(Coder& coder, KeyedValues& keyed, Plan plan, const PointLayout& layout,
+                FieldMemory::State& state) {
+  plan.method = static_cast<FieldMethod>(code_plain(coder, static_cast<std::uint64_t>(plan.method), 2));
+  switch (plan.method) {
+    case FieldMethod::constant:
+      code_mapping(coder, keyed.mapping);
+      break;
+    case FieldMethod::symbols:
+      if (!code_symbols(coder, keyed, std::move(plan.alphabet), layout, state.alphabet)) return false;
+      break;
+    case FieldMethod::residuals: {
+      code_mapping(coder, keyed.mapping);
+      const std::uint64_t predictor = code_plain(coder, static_cast<std::uint64_t>(plan.predictor), 3);
+      if (predictor >= kKeyPredictors) return false;
+      state.residuals.code(coder, static_cast<KeyPredictor>(predictor), layout, keyed.keys);
+      break;
+    }
+    default:
+      return false;
+  }
+  return code_exceptions(coder, keyed.exceptions, keyed.keys.size());
+}
+
+// Bits that `ResidualModel` will take, about.
+double residual_cost_bits(KeyPredictor predictor, const KeyedValues& keyed, const PointLayout& layout) {
+  std::size_t misses = 0, bits = 0;
+  predict_keys(predictor, layout, [&](std::uint32_t point, std::uint64_t prediction) {
+    const std::uint64_t key = keyed.keys[point];
+    if (key != prediction) {
+      ++misses;
+      bits += static_cast<std::size_t>(std::bit_width(zigzag(key - prediction))) + 1;
+    }
+    return key;
+  });
+  const double total = static_cast<double>(layout.size()), missed = static_cast<double>(misses);
+  const double flags =
+      misses == 0 || misses == layout.size()
+          ? 0
+          : -missed * std::log2(missed / total) - (total - missed) * std::log2(1 - missed / total);
+  return flags + static_cast<double>(bits);
+}
+
+// Order-0 bits of the symbols; contexts save about a fifth, the table costs about a byte a value.
+double symbol_cost_bits(std::span<const std::uint64_t> keys, const std::vector<std::uint64_t>& alphabet) {
+  std::vector<double> counts(alphabet.size(), 0);
+  for (const std::uint32_t symbol : symbols_of(keys, alphabet)) ++counts[symbol];
+  double bits = 0;
+  for (const double count : counts) bits -= count * std::log2(count / static_cast<double>(keys.size()));
+  return 0.8 * bits + 8 * static_cast<double>(alphabet.size());
+}
+
+Plan plan_for(const KeyedValues& keyed, const PointLayout& layout) {
+  Plan plan;
+  if (std::all_of(keyed.keys.begin(), keyed.keys.end(), [](std::uint64_t key) { return key == 0; }))
+    return plan;
+  plan.method = FieldMethod::residuals;
+  double best_bits = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < kKeyPredictors; ++i) {
+    const double bits = residual_cost_bits(static_cast<KeyPredictor>(i), keyed, layout);
+    if (bits < best_bits) {
+      best_bits = bits;
+      plan.predictor = static_cast<KeyPredictor>(i);
+    }
+  }
+  if (auto alphabet = distinct_keys(keyed.keys);
+      alphabet && symbol_cost_bits(keyed.keys, *alphabet) < best_bits) {
+    plan.method = FieldMethod::symbols;
+    plan.alphabet = *std::move(alphabet);
+  }
+  return plan;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encode_field(const FieldValues& values, double step, const PointLayout& layout,
+                                       FieldMemory& memory) {
+  KeyedValues keyed = to_keys(step > 0 ? coarsened(values, step) : values, step);
+  BitEncoder coder;
+  code_field(coder, keyed, plan_for(keyed, layout), layout, memory.state());
+  return coder.finish();
+}
+
+Result<FieldValues> decode_field(std::span<const std::uint8_t> bytes, std::size_t type,
+                                 const PointLayout& layout, FieldMemory& memory) {
+  if (type >= std::variant_size_v<FieldValues>) return Error{ErrorCode::corrupt, "a field of unknown type"};
+  BitDecoder coder(bytes);
+  KeyedValues keyed;
+  keyed.keys.resize(layout.size(), 0);
+  const bool sane = code_field(coder, keyed, {}, layout, memory.state());
+  if (coder.overran()) return Error{ErrorCode::truncated, "the bytes of a field end before its last value"};
+  if (!sane) return Error{ErrorCode::corrupt, "the bytes of a field contradict themselves"};
+  return from_keys(keyed, type);
+}
+
+}  // namespace pointreel
