@@ -111,21 +111,21 @@ class LogisticMixer {
     return static_cast<LogOdds>(std::clamp<std::int64_t>(sum >> 16, -kMaxLogOdds, kMaxLogOdds));
   }
 
-  // `p_one`: what the mix of these inputs was squashed to. A step is error * input * rate.
-  template <int kRate>
+  // `p_one`: what the mix of these inputs was squashed to. Weights move by error * input / 2^kRateShift; 14
+  // adapts fast, 15 suits 10^5 decisions and more.
+  template <int kRateShift>
   void update(std::size_t set, const Inputs& inputs, bool bit, Probability16 p_one) {
-    const std::int32_t error = ((bit ? 65536 : 0) - static_cast<std::int32_t>(p_one)) * kRate;
+    const std::int32_t error = (bit ? 65536 : 0) - static_cast<std::int32_t>(p_one);
     auto& weights = weights_[set];
     for (std::size_t i = 0; i < kInputs; ++i) {
-      // |error| <= 2^16 * rate, |input| < 2^11: fits while rate <= 16. The limit keeps any stream's sums
-      // sane.
-      const std::int32_t moved = weights[i] + ((inputs[i] * error + (1 << 13)) >> 14);
-      weights[i] = std::clamp(moved, -kMaxWeight, kMaxWeight);
+      // |error| < 2^16 and |input| < 2^11 fit. Weights wrap around, should they ever get that far.
+      const std::int32_t change = (inputs[i] * error + (1 << (kRateShift - 1))) >> kRateShift;
+      weights[i] = static_cast<std::int32_t>(static_cast<std::uint32_t>(weights[i]) +
+                                             static_cast<std::uint32_t>(change));
     }
   }
 
  private:
-  static constexpr std::int32_t kMaxWeight = 1 << 20;
   std::vector<std::array<std::int32_t, kInputs>> weights_;
 };
 

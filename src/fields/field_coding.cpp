@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 
+#include "entropy/plain_bits.h"
 #include "entropy/wide_integer.h"
 #include "fields/key_alphabet.h"
 #include "fields/residual_coding.h"
@@ -40,24 +41,16 @@ FieldMemory& FieldMemory::operator=(FieldMemory&&) noexcept = default;
 
 namespace {
 
-// Bits of known number, each as likely as not.
-template <class Coder>
-std::uint64_t code_plain(Coder& coder, std::uint64_t value, int bits) {
-  std::uint64_t result = 0;
-  for (int bit = bits; bit-- > 0;) result = (result << 1) | (coder.code_even((value >> bit) & 1u) ? 1u : 0u);
-  return result;
-}
-
 template <class Coder>
 void code_mapping(Coder& coder, KeyMapping& mapping) {
   mapping.multiples = coder.code_even(mapping.multiples);
   if (mapping.multiples) {
     mapping.multiplier =
-        std::bit_cast<double>(code_plain(coder, std::bit_cast<std::uint64_t>(mapping.multiplier), 64));
+        std::bit_cast<double>(code_plain_bits(coder, std::bit_cast<std::uint64_t>(mapping.multiplier), 64));
     mapping.divisor =
-        std::bit_cast<double>(code_plain(coder, std::bit_cast<std::uint64_t>(mapping.divisor), 64));
+        std::bit_cast<double>(code_plain_bits(coder, std::bit_cast<std::uint64_t>(mapping.divisor), 64));
   }
-  mapping.base = code_plain(coder, mapping.base, 64);
+  mapping.base = code_plain_bits(coder, mapping.base, 64);
   AdaptiveWideInteger unit(0);
   mapping.unit = unit.code(coder, mapping.unit);
 }
@@ -81,7 +74,7 @@ bool code_exceptions(Coder& coder, std::vector<KeyException>& exceptions, std::s
     if (gap >= points - next) return false;
     exception.point = static_cast<std::uint32_t>(next + gap);
     next = exception.point + std::uint64_t{1};
-    if (!coder.code(repeats, exception.bits == bits)) bits = code_plain(coder, exception.bits, 64);
+    if (!coder.code(repeats, exception.bits == bits)) bits = code_plain_bits(coder, exception.bits, 64);
     exception.bits = bits;
   }
   return true;
@@ -181,7 +174,7 @@ struct Plan {
 template <class Coder>
 bool code_field(Coder& coder, KeyedValues& keyed, Plan plan, const PointLayout& layout,
                 FieldMemory::State& state) {
-  plan.method = static_cast<FieldMethod>(code_plain(coder, static_cast<std::uint64_t>(plan.method), 2));
+  plan.method = static_cast<FieldMethod>(code_plain_bits(coder, static_cast<std::uint64_t>(plan.method), 2));
   switch (plan.method) {
     case FieldMethod::constant:
       code_mapping(coder, keyed.mapping);
@@ -191,7 +184,7 @@ bool code_field(Coder& coder, KeyedValues& keyed, Plan plan, const PointLayout& 
       break;
     case FieldMethod::residuals: {
       code_mapping(coder, keyed.mapping);
-      const std::uint64_t predictor = code_plain(coder, static_cast<std::uint64_t>(plan.predictor), 3);
+      const std::uint64_t predictor = code_plain_bits(coder, static_cast<std::uint64_t>(plan.predictor), 3);
       if (predictor >= kKeyPredictors) return false;
       state.residuals.code(coder, static_cast<KeyPredictor>(predictor), layout, keyed.keys);
       break;
@@ -221,13 +214,13 @@ double residual_cost_bits(KeyPredictor predictor, const KeyedValues& keyed, cons
   return flags + static_cast<double>(bits);
 }
 
-// Order-0 bits of the symbols; contexts save about a fifth, the table costs about a byte a value.
+// Order-0 bits of the symbols; contexts save about a third, the table costs about a byte a value.
 double symbol_cost_bits(std::span<const std::uint64_t> keys, const std::vector<std::uint64_t>& alphabet) {
   std::vector<double> counts(alphabet.size(), 0);
   for (const std::uint32_t symbol : symbols_of(keys, alphabet)) ++counts[symbol];
   double bits = 0;
   for (const double count : counts) bits -= count * std::log2(count / static_cast<double>(keys.size()));
-  return 0.8 * bits + 8 * static_cast<double>(alphabet.size());
+  return 0.65 * bits + 8 * static_cast<double>(alphabet.size());
 }
 
 Plan plan_for(const KeyedValues& keyed, const PointLayout& layout) {

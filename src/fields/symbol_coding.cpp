@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <deque>
 
 namespace pointreel {
 namespace {
@@ -35,7 +36,7 @@ std::uint32_t step_class(float step_m) {
 SymbolModel::SymbolModel(std::span<const std::uint64_t> weights, std::uint32_t rows)
     : groups_(static_cast<std::uint32_t>(weights.size())),
       rows_(std::clamp(rows, 1u, 256u)),
-      mixer_(kMaxGroups, 16000) {
+      mixer_(kMaxGroups, 12000) {
   while (groups_ > kMaxGroups) {
     ++low_bits_;
     groups_ = (groups_ + 1) / 2;
@@ -43,7 +44,7 @@ SymbolModel::SymbolModel(std::span<const std::uint64_t> weights, std::uint32_t r
   std::vector<std::uint64_t> mass_before(groups_ + 1, 0);
   for (std::size_t i = 0; i < weights.size(); ++i) mass_before[(i >> low_bits_) + 1] += weights[i];
   for (std::uint32_t i = 0; i < groups_; ++i) mass_before[i + 1] += mass_before[i];
-  root_ = grow(mass_before, 0, groups_);
+  grow(mass_before);
   coarse_ = quantiles(mass_before, kCoarse);
   medium_ = quantiles(mass_before, kMedium);
   fine_ = quantiles(mass_before, kFine);
@@ -56,20 +57,36 @@ SymbolModel::SymbolModel(std::span<const std::uint64_t> weights, std::uint32_t r
   low_.resize(std::size_t{groups_} << low_bits_);
 }
 
-// Splits the groups [first, end) where their mass does.
-std::int32_t SymbolModel::grow(std::span<const std::uint64_t> mass_before, std::uint32_t first,
-                               std::uint32_t end) {
-  if (end - first == 1) return ~static_cast<std::int32_t>(first);
-  const std::uint64_t twice_middle = mass_before[first] + mass_before[end];
-  std::uint32_t split = first + 1;
-  while (split + 1 < end && mass_before[split] + mass_before[split + 1] <= twice_middle) ++split;
-  const std::size_t node = nodes_.size();
-  nodes_.push_back({split, 0, 0});
-  const std::int32_t below = grow(mass_before, first, split);
-  const std::int32_t above = grow(mass_before, split, end);
-  nodes_[node].below = below;
-  nodes_[node].above = above;
-  return static_cast<std::int32_t>(node);
+// Splits groups where their mass does. Breadth first: the decisions taken most lie together.
+void SymbolModel::grow(std::span<const std::uint64_t> mass_before) {
+  struct Open {
+    std::uint32_t first, end;  // groups, at least one
+    std::int32_t* child_of_parent_at(std::vector<Node>& nodes) const {
+      return is_above ? &nodes[parent].above : &nodes[parent].below;
+    }
+    std::size_t parent;
+    bool is_above;
+  };
+  std::deque<Open> open = {{0, groups_, 0, false}};
+  while (!open.empty()) {
+    const Open part = open.front();
+    open.pop_front();
+    const bool leaf = part.end - part.first == 1;
+    const std::int32_t self =
+        leaf ? ~static_cast<std::int32_t>(part.first) : static_cast<std::int32_t>(nodes_.size());
+    if (nodes_.empty()) {
+      root_ = self;
+    } else {
+      *part.child_of_parent_at(nodes_) = self;
+    }
+    if (leaf) continue;
+    const std::uint64_t twice_middle = mass_before[part.first] + mass_before[part.end];
+    std::uint32_t split = part.first + 1;
+    while (split + 1 < part.end && mass_before[split] + mass_before[split + 1] <= twice_middle) ++split;
+    nodes_.push_back({split, 0, 0});
+    open.push_back({part.first, split, nodes_.size() - 1, false});
+    open.push_back({split, part.end, nodes_.size() - 1, true});
+  }
 }
 
 std::vector<std::uint8_t> SymbolModel::quantiles(std::span<const std::uint64_t> mass_before,
@@ -95,7 +112,7 @@ std::uint32_t SymbolModel::code_group(Coder& coder, const std::array<std::uint32
     for (std::size_t i = 0; i < kContexts; ++i) inputs[i] = stretch(base[i][node].p_one());
     const Probability16 p_one = squash(mixer_.mix(node, inputs));
     const bool bit = coder.code_with(group >= nodes_[node].split, p_one);
-    mixer_.update<kMixingRate>(node, inputs, bit, p_one);
+    mixer_.update<kMixingRateShift>(node, inputs, bit, p_one);
     for (std::size_t i = 0; i < kContexts; ++i) base[i][node].template update<kRateLimit>(bit);
     at = bit ? nodes_[node].above : nodes_[node].below;
   }

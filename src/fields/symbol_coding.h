@@ -29,8 +29,8 @@ class SymbolModel {
  private:
   static constexpr std::size_t kContexts = 6;
   static constexpr std::size_t kMaxGroups = 256;
-  static constexpr int kRateLimit = 250;  // intensities of one sweep are stationary: long memories pay
-  static constexpr int kMixingRate = 1;
+  static constexpr int kRateLimit = 30;
+  static constexpr int kMixingRateShift = 15;
   static constexpr LogOdds kBias = kLogOddsUnit;
 
   // A decision: is the group at or above the split? A child below 0 is the group ~child.
@@ -39,7 +39,7 @@ class SymbolModel {
     std::int32_t below, above;
   };
 
-  std::int32_t grow(std::span<const std::uint64_t> mass_before, std::uint32_t first, std::uint32_t end);
+  void grow(std::span<const std::uint64_t> mass_before);
   std::vector<std::uint8_t> quantiles(std::span<const std::uint64_t> mass_before,
                                       std::uint32_t classes) const;
 
