@@ -1,6 +1,7 @@
 #include "fields/field_coding.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -195,32 +196,43 @@ bool code_field(Coder& coder, KeyedValues& keyed, Plan plan, const PointLayout& 
   return code_exceptions(coder, keyed.exceptions, keyed.keys.size());
 }
 
-// Bits that `ResidualModel` will take, about.
-double residual_cost_bits(KeyPredictor predictor, const KeyedValues& keyed, const PointLayout& layout) {
-  std::size_t misses = 0, bits = 0;
-  predict_keys(predictor, layout, [&](std::uint32_t point, std::uint64_t prediction) {
-    const std::uint64_t key = keyed.keys[point];
-    if (key != prediction) {
-      ++misses;
-      bits += static_cast<std::size_t>(std::bit_width(zigzag(key - prediction))) + 1;
-    }
-    return key;
-  });
-  const double total = static_cast<double>(layout.size()), missed = static_cast<double>(misses);
-  const double flags =
-      misses == 0 || misses == layout.size()
-          ? 0
-          : -missed * std::log2(missed / total) - (total - missed) * std::log2(1 - missed / total);
-  return flags + static_cast<double>(bits);
+double entropy_bits(std::span<const double> counts) {
+  const double total = std::accumulate(counts.begin(), counts.end(), 0.0);
+  double bits = 0;
+  for (const double count : counts) bits -= count > 0 ? count * std::log2(count / total) : 0;
+  return bits;
 }
 
-// Order-0 bits of the symbols; contexts save about a third, the table costs about a byte a value.
-double symbol_cost_bits(std::span<const std::uint64_t> keys, const std::vector<std::uint64_t>& alphabet) {
-  std::vector<double> counts(alphabet.size(), 0);
-  for (const std::uint32_t symbol : symbols_of(keys, alphabet)) ++counts[symbol];
-  double bits = 0;
-  for (const double count : counts) bits -= count * std::log2(count / static_cast<double>(keys.size()));
-  return 0.65 * bits + 8 * static_cast<double>(alphabet.size());
+// Bits that `ResidualModel` will take, about: the lengths' entropy and the bits below the leading ones.
+double residual_cost_bits(KeyPredictor predictor, const KeyedValues& keyed, const PointLayout& layout) {
+  std::array<double, 65> lengths{};
+  predict_keys(predictor, layout, [&](std::uint32_t point, std::uint64_t prediction) {
+    const std::uint64_t key = keyed.keys[point];
+    ++lengths[static_cast<std::size_t>(std::bit_width(zigzag(key - prediction)))];
+    return key;
+  });
+  double bits = entropy_bits(lengths);
+  for (std::size_t length = 2; length < lengths.size(); ++length)
+    bits += lengths[length] * static_cast<double>(length - 1);
+  return bits;
+}
+
+// Bits that `SymbolModel` will take, about: the entropy given the symbol to the left, coarsely, of which the
+// other contexts save a tenth, and a byte a value for the table.
+double symbol_cost_bits(std::span<const std::uint64_t> keys, const std::vector<std::uint64_t>& alphabet,
+                        const PointLayout& layout) {
+  constexpr std::size_t kClasses = 16;
+  std::vector<std::vector<double>> counts(kClasses, std::vector<double>(alphabet.size(), 0));
+  const std::vector<std::uint32_t> symbols = symbols_of(keys, alphabet);
+  std::size_t left = 0;
+  for (const PointLayout::Place& place : layout.raster()) {
+    const std::uint32_t symbol = symbols[place.point];
+    ++counts[left * kClasses / alphabet.size()][symbol];
+    left = symbol;
+  }
+  double bits = 8 * static_cast<double>(alphabet.size());
+  for (const auto& counts_after : counts) bits += 0.9 * entropy_bits(counts_after);
+  return bits;
 }
 
 Plan plan_for(const KeyedValues& keyed, const PointLayout& layout) {
@@ -237,7 +249,7 @@ Plan plan_for(const KeyedValues& keyed, const PointLayout& layout) {
     }
   }
   if (auto alphabet = distinct_keys(keyed.keys);
-      alphabet && symbol_cost_bits(keyed.keys, *alphabet) < best_bits) {
+      alphabet && symbol_cost_bits(keyed.keys, *alphabet, layout) < best_bits) {
     plan.method = FieldMethod::symbols;
     plan.alphabet = *std::move(alphabet);
   }

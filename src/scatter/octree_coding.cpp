@@ -115,8 +115,8 @@ class OccupancyModel {
  private:
   static constexpr std::size_t kContexts = 5;
   static constexpr std::uint32_t kFirstOfTree = 7, kDecisions = kFirstOfTree + 256;
-  static constexpr int kRateLimit = 250;
-  static constexpr int kMixingRateShift = 14;
+  static constexpr int kRateLimit = 30;
+  static constexpr int kMixingRateShift = 13;
   using Mixer = LogisticMixer<kContexts + 1>;
 
   template <class Coder>
