@@ -77,14 +77,14 @@ class CountedBit {
   void update(bool bit) {
     const std::uint32_t n = count();
     const std::int32_t p = static_cast<std::int32_t>(state_ >> 10);
-    const std::int32_t error = ((bit ? (1 << 22) - 1 : 0) - p) >> 3;
-    const std::int32_t moved = p + ((error * kRates[n]) >> 13);
+    const std::int64_t error = (bit ? (1 << 22) - 1 : 0) - p;
+    const auto moved = p + static_cast<std::int32_t>((error * kRates[n]) >> 16);
     state_ = (static_cast<std::uint32_t>(moved) << 10) | (n < kLimit ? n + 1 : n);
   }
 
  private:
   static constexpr std::uint32_t kCountMask = 1023;
-  static constexpr auto kRates = [] {
+  static constexpr auto kRates = [] {  // in 1/65536
     std::array<std::int32_t, 1024> rates{};
     for (std::size_t n = 0; n < rates.size(); ++n) rates[n] = static_cast<std::int32_t>(131072 / (2 * n + 3));
     return rates;

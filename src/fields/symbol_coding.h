@@ -29,7 +29,7 @@ class SymbolModel {
  private:
   static constexpr std::size_t kContexts = 6;
   static constexpr std::size_t kMaxGroups = 256;
-  static constexpr int kRateLimit = 30;
+  static constexpr int kRateLimit = 60;
   static constexpr int kMixingRateShift = 15;
   static constexpr LogOdds kBias = kLogOddsUnit;
 
