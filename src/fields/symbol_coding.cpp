@@ -9,7 +9,7 @@
 namespace pointreel {
 namespace {
 
-constexpr std::uint32_t kCoarse = 17, kMedium = 25, kFine = 34;
+constexpr std::uint32_t kMedium = 25, kFine = 34;
 constexpr std::uint32_t kStepClasses = 11, kRangeClasses = 32;
 
 // Two classes an octave from 1 m upwards... of the range, for the return weakens with it.
@@ -45,13 +45,11 @@ SymbolModel::SymbolModel(std::span<const std::uint64_t> weights, std::uint32_t r
   for (std::size_t i = 0; i < weights.size(); ++i) mass_before[(i >> low_bits_) + 1] += weights[i];
   for (std::uint32_t i = 0; i < groups_; ++i) mass_before[i + 1] += mass_before[i];
   grow(mass_before);
-  coarse_ = quantiles(mass_before, kCoarse);
   medium_ = quantiles(mass_before, kMedium);
   fine_ = quantiles(mass_before, kFine);
 
-  const std::array<std::size_t, kContexts> contexts = {
-      groups_ * kStepClasses, kFine * kFine,     groups_,
-      rows_ * kMedium,        kCoarse * kCoarse, rows_ * kRangeClasses};
+  const std::array<std::size_t, kContexts> contexts = {groups_ * kStepClasses, kFine * kFine, groups_,
+                                                       rows_ * kMedium, rows_ * kRangeClasses};
   for (std::size_t i = 0; i < kContexts; ++i)
     bits_[i].resize(contexts[i] * std::max<std::size_t>(nodes_.size(), 1));
   low_.resize(std::size_t{groups_} << low_bits_);
@@ -147,10 +145,7 @@ void SymbolModel::code(Coder& coder, const PointLayout& layout, std::span<std::u
         (2 * left.group + left_before.group + left_third + 2 * up->group + up[-1].group + up[1].group) / 8;
     const std::array<std::uint32_t, kContexts> context = {
         left.group * kStepClasses + step_class(place.range_m - left.range_m),
-        fine_[left.group] * kFine + fine_[left_before.group],
-        mean,
-        row_class * kMedium + medium_[left.group],
-        coarse_[left.group] * kCoarse + coarse_[up->group],
+        fine_[left.group] * kFine + fine_[left_before.group], mean, row_class * kMedium + medium_[left.group],
         row_class * kRangeClasses + range_class(place.range_m)};
     const std::uint32_t group = code_group(coder, context, symbols[i] >> low_bits_);
     std::uint32_t low = 1;

@@ -27,7 +27,7 @@ class SymbolModel {
   void code(Coder& coder, const PointLayout& layout, std::span<std::uint32_t> symbols);
 
  private:
-  static constexpr std::size_t kContexts = 6;
+  static constexpr std::size_t kContexts = 5;
   static constexpr std::size_t kMaxGroups = 256;
   static constexpr int kRateLimit = 60;
   static constexpr int kMixingRateShift = 15;
@@ -51,7 +51,7 @@ class SymbolModel {
   int low_bits_ = 0;  // a symbol is its group and this many bits
   std::int32_t root_ = 0;
   std::vector<Node> nodes_;
-  std::vector<std::uint8_t> coarse_, medium_, fine_;  // classes of a group, about equally frequent
+  std::vector<std::uint8_t> medium_, fine_;  // classes of a group, about equally frequent
   std::array<std::vector<CountedBit>, kContexts> bits_;
   LogisticMixer<kContexts + 1> mixer_;
   std::vector<AdaptiveBit> low_;
