@@ -2,6 +2,7 @@
 //
 // BitEncoder and BitDecoder share one interface, `code(model, bit) -> bit`: the decoder ignores the bit it is
 // given and returns the one it reads. Code written once as a template over the coder is its own mirror.
+// `code_with(bit, p_one)` does the same for a probability that the caller models.
 #pragma once
 
 #include <array>
@@ -53,15 +54,11 @@ class BitEncoder {
     model.update(bit);
     return bit;
   }
-  bool code_even(bool bit) {
-    coder_.encode(bit, 32768);
-    return bit;
-  }
-  // With a probability the caller models itself, in [kMinProbability, 65536 - kMinProbability].
   bool code_with(bool bit, Probability16 p_one) {
     coder_.encode(bit, p_one);
     return bit;
   }
+  bool code_even(bool bit) { return code_with(bit, 32768); }
   std::vector<std::uint8_t> finish() { return coder_.finish(); }
   std::size_t size() const { return coder_.size(); }
 
@@ -79,8 +76,8 @@ class BitDecoder {
     model.update(bit);
     return bit;
   }
-  bool code_even(bool /*ignored*/ = false) { return coder_.decode(32768); }
   bool code_with(bool /*ignored*/, Probability16 p_one) { return coder_.decode(p_one); }
+  bool code_even(bool /*ignored*/ = false) { return code_with(false, 32768); }
   bool overran() const { return coder_.overran(); }
 
  private:
