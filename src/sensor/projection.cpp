@@ -1,0 +1,121 @@
+#include "sensor/projection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/parallel.h"
+#include "sensor/columns.h"
+#include "sensor/point_order.h"
+#include "sensor/polar_points.h"
+#include "sensor/row_assignment.h"
+
+namespace pointreel {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+
+void make_stray(GriddedSweep& sweep, std::size_t i, StrayReason reason) {
+  sweep.cell_of_point[i] = -1;
+  sweep.range_m[i] = 0;
+  sweep.deviation_m[i] = 0;
+  sweep.stray_reason[i] = reason;
+}
+
+// Range along the cell's ray and distance from it.
+void measure(const SensorModel& model, const PolarPoints& polar, const std::vector<std::int16_t>& rows,
+             const std::vector<double>& azimuths, const SweepColumns& columns, const GridOptions& options,
+             GriddedSweep& sweep) {
+  const std::size_t count = polar.size();
+  const double rad_per_tick = kTurn / columns.ticks_per_turn;
+  std::vector<double> cosines(model.rows.size());
+  for (std::size_t r = 0; r < cosines.size(); ++r)
+    cosines[r] = 1 / std::sqrt(1 + model.rows[r].slope * model.rows[r].slope);
+  parallel_for((count + kPiecePoints - 1) / kPiecePoints, options.threads, [&](std::size_t piece) {
+    const std::size_t last = std::min(count, (piece + 1) * kPiecePoints);
+    for (std::size_t i = piece * kPiecePoints; i < last; ++i) {
+      if (!polar.has_ray(i)) {
+        make_stray(sweep, i, StrayReason::no_ray);
+        continue;
+      }
+      if (rows[i] < 0) {
+        make_stray(sweep, i, StrayReason::off_row);
+        continue;
+      }
+      const auto r = static_cast<std::size_t>(rows[i]);
+      const RowModel& row = model.rows[r];
+      const double rho = polar.rho_m[i];
+      const double above = polar.z_m[i] - row.offset_m;
+      const double range = (rho + row.slope * above) * cosines[r];
+      const double vertical = (above - row.slope * rho) * cosines[r];
+      if (!(range > 0) || std::fabs(vertical) > options.max_deviation_m) {
+        make_stray(sweep, i, StrayReason::off_row);
+        continue;
+      }
+      const std::int32_t column = columns.column_of_point[i];
+      if (column < 0) {
+        make_stray(sweep, i, StrayReason::off_column);
+        continue;
+      }
+      const std::uint32_t tick = columns.tick[static_cast<std::size_t>(column)] % columns.ticks_per_turn;
+      double turn = azimuths[i] - tick * rad_per_tick;
+      if (std::fabs(turn) > 1) turn = std::remainder(turn, kTurn);
+      const double across = rho * turn;
+      const double deviation = std::sqrt(across * across + vertical * vertical);
+      if (deviation > options.max_deviation_m) {
+        make_stray(sweep, i, StrayReason::off_column);
+        continue;
+      }
+      sweep.cell_of_point[i] = rows[i] * static_cast<std::int32_t>(columns.tick.size()) + column;
+      sweep.range_m[i] = static_cast<float>(range);
+      sweep.deviation_m[i] = static_cast<float>(deviation);
+    }
+  });
+}
+
+// One point per cell: the one that fits best, the first of equals.
+void resolve_collisions(std::size_t cells, GriddedSweep& sweep) {
+  std::vector<std::int32_t> owner(cells, -1);
+  for (std::size_t i = 0; i < sweep.cell_of_point.size(); ++i) {
+    if (sweep.cell_of_point[i] < 0) continue;
+    std::int32_t& holder = owner[static_cast<std::size_t>(sweep.cell_of_point[i])];
+    if (holder < 0) {
+      holder = static_cast<std::int32_t>(i);
+      continue;
+    }
+    const auto other = static_cast<std::size_t>(holder);
+    if (sweep.deviation_m[i] < sweep.deviation_m[other]) {
+      make_stray(sweep, other, StrayReason::collision);
+      holder = static_cast<std::int32_t>(i);
+    } else {
+      make_stray(sweep, i, StrayReason::collision);
+    }
+  }
+}
+
+}  // namespace
+
+GriddedSweep project(const SensorModel& model, const PointCloud& cloud, const GridOptions& options) {
+  const std::size_t count = cloud.size();
+  GriddedSweep sweep;
+  sweep.cell_of_point.resize(count);
+  sweep.range_m.resize(count);
+  sweep.deviation_m.resize(count);
+  sweep.stray_reason.assign(count, StrayReason::none);
+
+  const PolarPoints polar = polar_points(cloud, sweep.grid.motion, options.threads);
+  const auto rows = assign_rows(model, cloud, polar, options.threads);
+  const auto azimuths = column_azimuths(model, polar, rows, options.threads);
+  const SweepColumns columns = find_columns(model, polar, rows, azimuths, options);
+  sweep.grid.ticks_per_turn = columns.ticks_per_turn;
+  sweep.grid.column_tick = columns.tick;
+  measure(model, polar, rows, azimuths, columns, options, sweep);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!is_finite(cloud.positions[i])) sweep.stray_reason[i] = StrayReason::non_finite;
+  }
+  resolve_collisions(model.rows.size() * columns.tick.size(), sweep);
+  find_order(model, false, false, sweep);
+  return sweep;
+}
+
+}  // namespace pointreel
