@@ -26,7 +26,7 @@ struct SensorDiagnosis {
   double mean_columns = 0;  // per sweep
   double occupancy = 0;     // points on the grid over cells
   std::size_t points = 0;
-  std::array<std::size_t, 7> points_by_reason{};  // indexed by StrayReason; [none]: on the grid
+  std::array<std::size_t, 6> points_by_reason{};  // indexed by StrayReason; [none]: on the grid
   DeviationPercentiles deviation;
 };
 

@@ -1,207 +1,212 @@
 #include "sensor/point_order.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
-#include <numbers>
-#include <numeric>
+
+#include "base/trigonometry.h"
+#include "sensor/order_moves.h"
 
 namespace pointreel {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kTurn = 2 * kPi;
 
-std::uint32_t turned(std::int64_t value, std::int64_t turn) {
-  const std::int64_t rest = value % turn;
-  return static_cast<std::uint32_t>(rest < 0 ? rest + turn : rest);
+double turned(double azimuth_rad) {
+  while (azimuth_rad < 0) azimuth_rad += kTurn;
+  while (azimuth_rad >= kTurn) azimuth_rad -= kTurn;
+  return azimuth_rad;
 }
 
-std::int64_t row_turn_ticks(const RowModel& row, std::uint32_t ticks_per_turn) {
-  const double ticks = row.azimuth_rad / kTurn * ticks_per_turn;
-  return static_cast<std::int64_t>(ticks + (ticks < 0 ? -0.5 : 0.5));
-}
-
-std::vector<std::uint16_t> place_in_sequence(const SensorModel& model) {
-  std::vector<std::uint16_t> place(model.rows.size());
-  for (std::size_t i = 0; i < place.size(); ++i) place[model.row_sequence[i]] = static_cast<std::uint16_t>(i);
-  return place;
-}
-
-// Indices (into keys) that no longest strictly increasing subsequence keeps.
-std::vector<std::size_t> order_breakers(const std::vector<std::int64_t>& keys) {
-  std::vector<std::size_t> tails;  // of the best subsequence of each length
-  std::vector<std::size_t> before(keys.size(), keys.size());
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    auto place = tails.end();
-    if (!tails.empty() && keys[tails.back()] >= keys[i]) {
-      place = std::lower_bound(tails.begin(), tails.end(), keys[i],
-                               [&](std::size_t tail, std::int64_t key) { return keys[tail] < key; });
-    }
-    if (place != tails.begin()) before[i] = *(place - 1);
-    if (place == tails.end()) {
-      tails.push_back(i);
-    } else {
-      *place = i;
-    }
+// Appends the occupied cells of one row, once around from the seam.
+class RowWalk {
+ public:
+  RowWalk(std::span<const std::uint8_t> occupied, std::span<const float> range_m, const SensorModel& model,
+          const SweepGrid& grid)
+      : occupied_(occupied), range_m_(range_m), model_(model), grid_(grid) {
+    const double tick_rad = kTurn / grid.ticks_per_turn;
+    seam_rad_ = grid.order.seam_tick * tick_rad;
+    for (const std::uint32_t tick : grid.column_tick)
+      azimuth_rad_.push_back(tick % grid.ticks_per_turn * tick_rad);
   }
-  std::vector<std::uint8_t> kept(keys.size(), 0);
-  for (std::size_t i = tails.empty() ? keys.size() : tails.back(); i < keys.size(); i = before[i])
-    kept[i] = 1;
-  std::vector<std::size_t> breakers;
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    if (kept[i] == 0) breakers.push_back(i);
-  }
-  return breakers;
-}
 
-// The points on the grid, in the order of the cloud.
-struct Walk {
-  std::vector<std::uint32_t> point, row, column;
+  void append(std::uint32_t row, std::vector<std::uint32_t>& cells) {
+    const RowModel& laser = model_.rows[row];
+    const std::size_t columns = azimuth_rad_.size();
+    const bool by_azimuth = grid_.order.kind == OrderKind::row_azimuth;
+    const double cosine = 1 / std::sqrt(1 + laser.slope * laser.slope);
+    keyed_.clear();
+    for (std::size_t c = 0; c < columns; ++c) {
+      const std::size_t cell = row * columns + c;
+      if (occupied_[cell] == 0) continue;
+      double azimuth = azimuth_rad_[c] + laser.azimuth_rad - seam_rad_;
+      if (by_azimuth) {
+        azimuth += static_cast<double>(
+            fast_atan2(static_cast<float>(laser.side_offset_m), static_cast<float>(range_m_[cell] * cosine)));
+      }
+      azimuth = turned(azimuth);
+      keyed_.push_back(
+          {grid_.order.descending ? kTurn - azimuth : azimuth, static_cast<std::uint32_t>(cell)});
+    }
+    const auto earlier = [](const Keyed& a, const Keyed& b) {
+      return a.key != b.key ? a.key < b.key : a.cell < b.cell;
+    };
+    // Two ascending runs, but for a few neighbours.
+    if (grid_.order.descending) std::reverse(keyed_.begin(), keyed_.end());
+    const auto least = std::min_element(keyed_.begin(), keyed_.end(), earlier);
+    std::rotate(keyed_.begin(), least, keyed_.end());
+    if (!std::is_sorted(keyed_.begin(), keyed_.end(), earlier))
+      std::sort(keyed_.begin(), keyed_.end(), earlier);
+    for (const Keyed& keyed : keyed_) cells.push_back(keyed.cell);
+  }
+
+ private:
+  struct Keyed {
+    double key;
+    std::uint32_t cell;
+  };
+  std::span<const std::uint8_t> occupied_;
+  std::span<const float> range_m_;
+  const SensorModel& model_;
+  const SweepGrid& grid_;
+  double seam_rad_ = 0;
+  std::vector<double> azimuth_rad_;
+  std::vector<Keyed> keyed_;
 };
 
-Walk walk_of(const GriddedSweep& sweep) {
-  Walk walk;
-  const auto columns = static_cast<std::uint32_t>(std::max<std::size_t>(1, sweep.grid.column_count()));
+struct CellImage {
+  std::vector<std::uint8_t> occupied;
+  std::vector<float> range_m;
+};
+
+CellImage image_of(const SensorModel& model, const GriddedSweep& sweep) {
+  const std::size_t cells = model.rows.size() * sweep.grid.column_count();
+  CellImage image{std::vector<std::uint8_t>(cells, 0), std::vector<float>(cells, 0)};
   for (std::size_t i = 0; i < sweep.cell_of_point.size(); ++i) {
     if (sweep.cell_of_point[i] < 0) continue;
-    const auto cell = static_cast<std::uint32_t>(sweep.cell_of_point[i]);
-    walk.point.push_back(static_cast<std::uint32_t>(i));
-    walk.row.push_back(cell / columns);
-    walk.column.push_back(cell % columns);
+    const auto cell = static_cast<std::size_t>(sweep.cell_of_point[i]);
+    image.occupied[cell] = 1;
+    image.range_m[cell] = sweep.range_m[i];
   }
-  return walk;
+  return image;
 }
 
-// Columns from a row's last point (exclusive) to its first: where the row may start. Rows without points have
-// none; rows whose points go around more than once start at their first point.
-struct Ends {
-  bool any = false;
-  std::uint32_t first = 0, last = 0;
-};
-
-void choose_start_columns(const SensorModel& model, const std::vector<Ends>& ends, SweepGrid& grid) {
-  const auto columns = static_cast<std::int64_t>(grid.column_count());
-  const bool descending = grid.order.descending;
-  // Columns that the row leaves out between its last point and `column`, in its own direction.
-  const auto steps_from_last = [&](const Ends& row, std::uint32_t column) {
-    const std::int64_t steps = static_cast<std::int64_t>(column) - static_cast<std::int64_t>(row.last);
-    return turned(descending ? -steps : steps, columns);
+// Where most rows begin: the azimuth (of column and row) between the last and the first point of a row, for
+// as many rows as can be. In ticks.
+std::uint32_t find_seam(const SensorModel& model, const SweepGrid& grid,
+                        const std::vector<std::uint32_t>& walk, bool descending) {
+  const std::size_t columns = grid.column_count();
+  const double tick_rad = kTurn / grid.ticks_per_turn;
+  struct Ends {
+    bool any = false;
+    double first = 0, last = 0;
   };
-  const auto may_start = [&](const Ends& row, std::uint32_t column) {
-    const std::uint32_t gap = steps_from_last(row, row.first);
-    const std::uint32_t steps = steps_from_last(row, column);
-    return gap == 0 ? column == row.first : steps > 0 && steps <= gap;
-  };
-  std::vector<std::uint32_t> seams = {0, grid.ticks_per_turn / 2, grid.ticks_per_turn / 4,
-                                      grid.ticks_per_turn / 4 * 3};
-  for (std::size_t r = 0; r < ends.size(); ++r) {
-    if (!ends[r].any) continue;
-    const std::int64_t tick =
-        grid.column_tick[ends[r].first] + row_turn_ticks(model.rows[r], grid.ticks_per_turn);
-    seams.push_back(turned(tick, grid.ticks_per_turn));
+  std::vector<Ends> ends(model.rows.size());
+  for (const std::uint32_t cell : walk) {
+    Ends& row = ends[cell / columns];
+    const double azimuth = turned(grid.column_tick[cell % columns] % grid.ticks_per_turn * tick_rad +
+                                  model.rows[cell / columns].azimuth_rad);
+    if (!row.any) row.first = azimuth;
+    row.any = true;
+    row.last = azimuth;
+  }
+  std::vector<double> seams = {0, kTurn / 2, kTurn / 4, kTurn * 3 / 4};
+  for (const Ends& row : ends) {
+    if (row.any) seams.push_back(row.first);
   }
   std::size_t most = 0;
-  std::uint32_t best_seam = 0;
-  for (const std::uint32_t seam : seams) {
-    grid.order.seam_tick = seam;
-    const auto starts = seam_columns(model, grid);
+  double best = 0;
+  for (const double seam : seams) {
     std::size_t right = 1;
-    for (std::size_t r = 0; r < ends.size(); ++r)
-      right += ends[r].any && may_start(ends[r], starts[r]) ? 1 : 0;
+    for (const Ends& row : ends) {
+      if (!row.any) continue;
+      const double from_last = turned(descending ? row.last - seam : seam - row.last);
+      const double to_first = turned(descending ? row.last - row.first : row.first - row.last);
+      right += from_last > 0 && from_last <= to_first ? 1 : 0;
+    }
     if (right > most) {
       most = right;
-      best_seam = seam;
+      best = seam;
     }
   }
-  grid.order.seam_tick = best_seam;
-  grid.order.start_column = seam_columns(model, grid);
-  for (std::size_t r = 0; r < ends.size(); ++r) {
-    if (ends[r].any && !may_start(ends[r], grid.order.start_column[r]))
-      grid.order.start_column[r] = ends[r].first;
-  }
-}
-
-std::vector<Ends> row_ends(const Walk& walk, std::size_t rows) {
-  std::vector<Ends> ends(rows);
-  for (std::size_t i = 0; i < walk.point.size(); ++i) {
-    Ends& row = ends[walk.row[i]];
-    if (!row.any) row.first = walk.column[i];
-    row.any = true;
-    row.last = walk.column[i];
-  }
-  return ends;
+  return static_cast<std::uint32_t>(best / tick_rad + 0.5) % grid.ticks_per_turn;
 }
 
 }  // namespace
 
-std::vector<std::uint32_t> seam_columns(const SensorModel& model, const SweepGrid& grid) {
-  std::vector<std::uint32_t> starts(model.rows.size(), 0);
-  if (grid.column_tick.empty()) return starts;
+std::vector<std::uint32_t> cells_in_order(std::span<const std::uint8_t> occupied,
+                                          std::span<const float> range_m, const SensorModel& model,
+                                          const SweepGrid& grid) {
+  const auto rows = static_cast<std::uint32_t>(model.rows.size());
   const auto columns = static_cast<std::uint32_t>(grid.column_count());
-  for (std::size_t r = 0; r < starts.size(); ++r) {
-    const std::int64_t seam =
-        static_cast<std::int64_t>(grid.order.seam_tick) - row_turn_ticks(model.rows[r], grid.ticks_per_turn);
-    const std::uint32_t tick = turned(seam, grid.ticks_per_turn);
-    if (grid.order.descending) {
-      const auto above = std::upper_bound(grid.column_tick.begin(), grid.column_tick.end(), tick);
-      const auto index = static_cast<std::uint32_t>(above - grid.column_tick.begin());
-      starts[r] = index == 0 ? columns - 1 : index - 1;
-    } else {
-      const auto found = std::lower_bound(grid.column_tick.begin(), grid.column_tick.end(), tick);
-      const auto index = static_cast<std::uint32_t>(found - grid.column_tick.begin());
-      starts[r] = index == columns ? 0 : index;
+  std::vector<std::uint32_t> cells;
+  if (grid.order.kind == OrderKind::column_major) {
+    for (std::uint32_t i = 0; i < columns; ++i) {
+      const std::uint32_t column = grid.order.descending ? columns - 1 - i : i;
+      for (const std::uint16_t row : model.row_sequence) {
+        const std::uint32_t cell = row * columns + column;
+        if (occupied[cell] != 0) cells.push_back(cell);
+      }
     }
+  } else if (grid.order.kind == OrderKind::none) {
+    for (std::uint32_t cell = 0; cell < rows * columns; ++cell) {
+      if (occupied[cell] != 0) cells.push_back(cell);
+    }
+  } else {
+    RowWalk walk(occupied, range_m, model, grid);
+    for (const std::uint16_t row : model.row_sequence) walk.append(row, cells);
   }
-  return starts;
+  return cells;
 }
 
-void find_order(const SensorModel& model, bool in_firing_order, bool descending, GriddedSweep& sweep) {
-  SweepGrid& grid = sweep.grid;
-  const Walk walk = walk_of(sweep);
-  const std::size_t count = walk.point.size();
-  const auto columns = static_cast<std::int64_t>(grid.column_count());
-  const auto place = place_in_sequence(model);
-  grid.order = {};
-  std::vector<std::int64_t> keys(count);
-  if (in_firing_order) {
-    grid.order.kind = OrderKind::column_major;
-    grid.order.descending = descending;
-    const auto rows = static_cast<std::int64_t>(model.rows.size());
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::int64_t column = walk.column[i];
-      keys[i] = (descending ? columns - 1 - column : column) * rows + place[walk.row[i]];
-    }
+std::vector<std::uint32_t> cells_of_points(const GriddedSweep& sweep) {
+  std::vector<std::uint32_t> cells;
+  cells.reserve(sweep.cell_of_point.size());
+  for (const std::int32_t cell : sweep.cell_of_point) {
+    if (cell >= 0) cells.push_back(static_cast<std::uint32_t>(cell));
+  }
+  return cells;
+}
+
+PointOrder find_order(const SensorModel& model, const GriddedSweep& sweep,
+                      std::optional<bool> firing_descending) {
+  const auto walk = cells_of_points(sweep);
+  if (walk.empty()) return {};
+  SweepGrid grid = sweep.grid;
+  const std::size_t columns = grid.column_count();
+  const CellImage image = image_of(model, sweep);
+  std::vector<OrderKind> kinds;
+  if (firing_descending) {
+    kinds = {OrderKind::column_major};
+    grid.order.descending = *firing_descending;
   } else {
     std::size_t same_row = 0;
     std::size_t falling = 0;
-    for (std::size_t i = 1; i < count; ++i) {
-      if (walk.row[i] != walk.row[i - 1]) continue;
+    for (std::size_t i = 1; i < walk.size(); ++i) {
+      if (walk[i] / columns != walk[i - 1] / columns) continue;
       ++same_row;
-      if (walk.column[i] < walk.column[i - 1]) ++falling;
+      if (walk[i] < walk[i - 1]) ++falling;
     }
-    if (count == 0 || same_row * 2 < count) return;
-    grid.order.kind = OrderKind::row_major;
+    if (same_row * 2 < walk.size()) return {};
+    kinds = {OrderKind::row_major, OrderKind::row_azimuth};
     grid.order.descending = falling * 2 > same_row;
-    const auto ends = row_ends(walk, model.rows.size());
-    choose_start_columns(model, ends, grid);
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::int64_t steps =
-          static_cast<std::int64_t>(walk.column[i]) - grid.order.start_column[walk.row[i]];
-      keys[i] = place[walk.row[i]] * columns + turned(grid.order.descending ? -steps : steps, columns);
-    }
+    grid.order.seam_tick = find_seam(model, grid, walk, grid.order.descending);
   }
-  const auto breakers = order_breakers(keys);
-  // The order is not worth more strays than these.
-  if (breakers.size() > count / 100 + 2) {
-    grid.order = {};
-    return;
+  PointOrder best;
+  std::size_t fewest = walk.size() / 50 + 2;
+  std::vector<std::uint32_t> place(image.occupied.size(), 0);
+  std::vector<std::uint32_t> keys(walk.size());
+  for (const OrderKind kind : kinds) {
+    grid.order.kind = kind;
+    const auto expected = cells_in_order(image.occupied, image.range_m, model, grid);
+    for (std::size_t i = 0; i < expected.size(); ++i) place[expected[i]] = static_cast<std::uint32_t>(i);
+    for (std::size_t i = 0; i < walk.size(); ++i) keys[i] = place[walk[i]];
+    const std::size_t moved = order_breakers(keys).size();
+    if (moved >= fewest) continue;
+    fewest = moved;
+    best = grid.order;
   }
-  for (const std::size_t i : breakers) {
-    const std::uint32_t point = walk.point[i];
-    sweep.cell_of_point[point] = -1;
-    sweep.range_m[point] = 0;
-    sweep.deviation_m[point] = 0;
-    sweep.stray_reason[point] = StrayReason::out_of_order;
-  }
+  return best;
 }
 
 }  // namespace pointreel

@@ -114,7 +114,7 @@ GriddedSweep project(const SensorModel& model, const PointCloud& cloud, const Gr
     if (!is_finite(cloud.positions[i])) sweep.stray_reason[i] = StrayReason::non_finite;
   }
   resolve_collisions(model.rows.size() * columns.tick.size(), sweep);
-  find_order(model, false, false, sweep);
+  sweep.grid.order = find_order(model, sweep, std::nullopt);
   return sweep;
 }
 

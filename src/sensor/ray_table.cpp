@@ -89,37 +89,4 @@ std::vector<std::int32_t> column_shift_of_row(const SensorModel& model, const Sw
   return shifts;
 }
 
-std::vector<std::uint32_t> cells_in_order(std::span<const std::uint8_t> occupied, const SensorModel& model,
-                                          const SweepGrid& grid) {
-  const auto rows = static_cast<std::uint32_t>(model.rows.size());
-  const auto columns = static_cast<std::uint32_t>(grid.column_count());
-  std::vector<std::uint32_t> cells;
-  const auto visit = [&](std::uint32_t row, std::uint32_t column) {
-    const std::uint32_t cell = row * columns + column;
-    if (occupied[cell] != 0) cells.push_back(cell);
-  };
-  if (grid.order.kind == OrderKind::column_major) {
-    for (std::uint32_t i = 0; i < columns; ++i) {
-      const std::uint32_t column = grid.order.descending ? columns - 1 - i : i;
-      for (const std::uint16_t row : model.row_sequence) visit(row, column);
-    }
-    return cells;
-  }
-  const bool ordered = grid.order.kind == OrderKind::row_major;
-  const bool descending = ordered && grid.order.descending;
-  for (std::uint32_t i = 0; i < rows; ++i) {
-    const std::uint32_t row = ordered ? model.row_sequence[i] : i;
-    std::uint32_t column = ordered ? grid.order.start_column[row] : 0;
-    for (std::uint32_t n = 0; n < columns; ++n) {
-      visit(row, column);
-      if (descending) {
-        column = column == 0 ? columns - 1 : column - 1;
-      } else {
-        column = column + 1 == columns ? 0 : column + 1;
-      }
-    }
-  }
-  return cells;
-}
-
 }  // namespace pointreel

@@ -47,9 +47,4 @@ class RayTable {
 // alpha 0 looks from column c + shift. alpha over the mean column step; 0 with fewer than two columns.
 std::vector<std::int32_t> column_shift_of_row(const SensorModel& model, const SweepGrid& grid);
 
-// The occupied cells (row * column_count + column) in the order of the points. `occupied` has one entry per
-// cell, 0 or 1. Order none: rows from top to bottom.
-std::vector<std::uint32_t> cells_in_order(std::span<const std::uint8_t> occupied, const SensorModel& model,
-                                          const SweepGrid& grid);
-
 }  // namespace pointreel

@@ -23,17 +23,18 @@ inline constexpr double kTwistStep =
     1.0 / (1 << 16);                     // of w, and of v in metres: 0.6 mm at s = 1/2, 80 m away
 inline constexpr double kMaxTwist = 16;  // of every component
 
+// What the order of the points follows from. Points that deviate from it are moved apart (order_moves.h).
 enum class OrderKind : std::uint8_t {
   none,          // the order of the points is not kept
-  row_major,     // rows as in the model's row_sequence, each once around from its start column
+  row_major,     // rows as in the model's row_sequence, each once around by column, from the seam
+  row_azimuth,   // the same by the points' own azimuth: where side offsets cross rays, not the same (KITTI)
   column_major,  // columns from first to last, in each the rows as in row_sequence
 };
 
 struct PointOrder {
   OrderKind kind = OrderKind::none;
-  bool descending = false;  // columns run towards smaller azimuths (column_major: from last to first)
-  std::vector<std::uint32_t> start_column;  // row_major: for each row
-  std::uint32_t seam_tick = 0;              // row_major: the azimuth at which most rows start
+  bool descending = false;      // towards smaller azimuths (column_major: from the last column to the first)
+  std::uint32_t seam_tick = 0;  // rows: azimuth at which each begins, in ticks
   friend bool operator==(const PointOrder&, const PointOrder&) = default;
 };
 
@@ -56,7 +57,6 @@ enum class StrayReason : std::uint8_t {
   off_row,     // no row passes near enough
   off_column,  // no column passes near enough
   collision,   // another point fits the same cell better
-  out_of_order
 };
 
 struct GriddedSweep {

@@ -83,8 +83,8 @@ std::uint32_t find_ticks_per_turn(const PolarPoints& polar, const RowPoints& row
   }
   if (best < 0.5) return 0;
   // Multiples of the lattice's number score nearly as well; the smallest is the sensor's.
-  for (std::uint32_t n = kFewest; n <= kMost; ++n) {
-    if (scores[n] > 0.85 * best) return n;
+  for (std::uint32_t n = kFewest; n < kMost; ++n) {
+    if (scores[n] > 0.85 * best && scores[n] >= scores[n + 1]) return n;
   }
   return 0;
 }
