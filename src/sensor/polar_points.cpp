@@ -7,9 +7,7 @@
 #include "base/trigonometry.h"
 
 namespace pointreel {
-namespace {
-
-// q = R(s w) p + s v with s from the azimuth of q itself: two rounds from the azimuth of p leave an error of
+// Two rounds from the azimuth of p leave an error of
 // (v / 2 pi rho)^2 of the shift, a third removes it.
 Point3f as_measured(const Point3f& p, const Twist& twist) {
   const auto& v = twist.v_m;
@@ -38,8 +36,6 @@ Point3f as_measured(const Point3f& p, const Twist& twist) {
   }
   return {static_cast<float>(qx), static_cast<float>(qy), static_cast<float>(qz)};
 }
-
-}  // namespace
 
 PolarPoints polar_points(const PointCloud& cloud, const std::optional<Twist>& motion, int threads) {
   const std::size_t count = cloud.size();

@@ -9,6 +9,7 @@
 #include "sensor/point_order.h"
 #include "sensor/polar_points.h"
 #include "sensor/row_assignment.h"
+#include "sensor/twist_fit.h"
 
 namespace pointreel {
 namespace {
@@ -103,8 +104,13 @@ GriddedSweep project(const SensorModel& model, const PointCloud& cloud, const Gr
   sweep.deviation_m.resize(count);
   sweep.stray_reason.assign(count, StrayReason::none);
 
-  const PolarPoints polar = polar_points(cloud, sweep.grid.motion, options.threads);
-  const auto rows = assign_rows(model, cloud, polar, options.threads);
+  PolarPoints polar = polar_points(cloud, {}, options.threads);
+  auto rows = assign_rows(model, cloud, polar, options.threads);
+  if (model.motion_compensated) {
+    sweep.grid.motion = find_twist(model, cloud, rows);
+    polar = polar_points(cloud, sweep.grid.motion, options.threads);
+    settle_rows(model, polar, rows);
+  }
   const auto azimuths = column_azimuths(model, polar, rows, options.threads);
   const SweepColumns columns = find_columns(model, polar, rows, azimuths, options);
   sweep.grid.ticks_per_turn = columns.ticks_per_turn;

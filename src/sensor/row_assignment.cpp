@@ -183,4 +183,15 @@ std::vector<std::int16_t> assign_rows(const SensorModel& model, const PointCloud
   return rows;
 }
 
+void settle_rows(const SensorModel& model, const PolarPoints& polar, std::vector<std::int16_t>& rows) {
+  constexpr double kFarM = 0.02;
+  const NearestRow nearest(model);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i] < 0 || !polar.has_ray(i)) continue;
+    const RowModel& row = model.rows[static_cast<std::size_t>(rows[i])];
+    if (std::fabs(height_above_row_m(row, polar.rho_m[i], polar.z_m[i])) > kFarM)
+      rows[i] = nearest(polar.rho_m[i], polar.z_m[i]);
+  }
+}
+
 }  // namespace pointreel

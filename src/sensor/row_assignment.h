@@ -22,6 +22,10 @@ std::vector<std::int32_t> ring_values(const PointCloud& cloud);
 std::vector<std::int16_t> assign_rows(const SensorModel& model, const PointCloud& cloud,
                                       const PolarPoints& polar, int threads);
 
+// Moves points that miss their row by far to the nearest one: around the seam of compensated sweeps a run's
+// ends belong to its neighbours.
+void settle_rows(const SensorModel& model, const PolarPoints& polar, std::vector<std::int16_t>& rows);
+
 // Distance of a point from the cone that row's laser sweeps, across the ray; positive above.
 inline double height_above_row_m(const RowModel& row, double rho_m, double z_m) {
   return z_m - (row.slope * rho_m + row.offset_m);

@@ -11,11 +11,15 @@
 #include "sensor/row_fit.h"
 #include "sensor/row_runs.h"
 #include "sensor/tick_lattice.h"
+#include "sensor/twist_fit.h"
 
 namespace pointreel {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
+
+// Rows of a compensated sweep are this sharp once the motion is put back, or there was none.
+constexpr double kCompensatedScatterM = 3e-3;
 
 // Groups of points that one laser measured, in the order in which they first come.
 struct RowEvidence {
@@ -122,6 +126,12 @@ void SensorEstimator::add(const PointCloud& cloud) {
   if (!rings.empty()) evidence = rows_from_rings(rings, polar);
   if (evidence.points.empty()) evidence = rows_from_runs(polar);
   model_ = model_of(polar, evidence, options_.threads);
+  if (model_ || evidence.points.empty()) return;
+  const auto blind = find_twist_blind(cloud, evidence.points);
+  if (!blind || blind->scatter_m > kCompensatedScatterM) return;
+  const PolarPoints measured = polar_points(cloud, blind->twist, options_.threads);
+  model_ = model_of(measured, evidence, options_.threads);
+  if (model_) model_->motion_compensated = true;
 }
 
 }  // namespace pointreel
