@@ -16,11 +16,11 @@ struct SweepColumns {
   std::vector<std::int32_t> column_of_point;  // -1: none near enough
 };
 
-// `column_azimuth_rad`: per point, the azimuth that its column must have (alpha and h taken out), in any
-// turn; rows[i] < 0: no such point.
+// `azimuth_rad`: per point, the azimuth that its column must have (column_azimuths, or unwrapped along the
+// firing order: up to two turns); rows[i] < 0: no such point.
 SweepColumns find_columns(const SensorModel& model, const PolarPoints& polar,
-                          const std::vector<std::int16_t>& rows,
-                          const std::vector<double>& column_azimuth_rad, const GridOptions& options);
+                          const std::vector<std::int16_t>& rows, const std::vector<double>& azimuth_rad,
+                          bool unwrapped, const GridOptions& options);
 
 // Azimuth of the column that fires a row's laser at a point: alpha and h taken out, in [0, 2 pi).
 std::vector<double> column_azimuths(const SensorModel& model, const PolarPoints& polar,

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "base/parallel.h"
 #include "sensor/columns.h"
+#include "sensor/firing_order.h"
 #include "sensor/point_order.h"
 #include "sensor/polar_points.h"
 #include "sensor/row_assignment.h"
@@ -111,8 +114,14 @@ GriddedSweep project(const SensorModel& model, const PointCloud& cloud, const Gr
     polar = polar_points(cloud, sweep.grid.motion, options.threads);
     settle_rows(model, polar, rows);
   }
-  const auto azimuths = column_azimuths(model, polar, rows, options.threads);
-  const SweepColumns columns = find_columns(model, polar, rows, azimuths, options);
+  auto azimuths = column_azimuths(model, polar, rows, options.threads);
+  std::optional<bool> firing_descending;
+  if (auto firing = find_firing_order(azimuths, rows)) {
+    firing_descending = firing->descending;
+    azimuths = std::move(firing->azimuth_rad);
+  }
+  const SweepColumns columns =
+      find_columns(model, polar, rows, azimuths, firing_descending.has_value(), options);
   sweep.grid.ticks_per_turn = columns.ticks_per_turn;
   sweep.grid.column_tick = columns.tick;
   measure(model, polar, rows, azimuths, columns, options, sweep);
@@ -120,7 +129,7 @@ GriddedSweep project(const SensorModel& model, const PointCloud& cloud, const Gr
     if (!is_finite(cloud.positions[i])) sweep.stray_reason[i] = StrayReason::non_finite;
   }
   resolve_collisions(model.rows.size() * columns.tick.size(), sweep);
-  sweep.grid.order = find_order(model, sweep, std::nullopt);
+  sweep.grid.order = find_order(model, sweep, firing_descending);
   return sweep;
 }
 
