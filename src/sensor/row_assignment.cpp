@@ -170,10 +170,14 @@ std::vector<std::int16_t> assign_rows(const SensorModel& model, const PointCloud
     const auto rings = ring_values(cloud);
     if (!rings.empty()) return rows_by_ring(model, rings, polar);
   }
-  const NearestRow nearest(model);
-  auto rows = rows_by_runs(model, polar, nearest);
+  auto rows = rows_by_runs(model, polar, NearestRow(model));
   if (!rows.empty() || polar.size() == 0) return rows;
-  rows.assign(polar.size(), kNoRow);
+  return nearest_rows(model, polar, threads);
+}
+
+std::vector<std::int16_t> nearest_rows(const SensorModel& model, const PolarPoints& polar, int threads) {
+  const NearestRow nearest(model);
+  std::vector<std::int16_t> rows(polar.size(), kNoRow);
   parallel_for((polar.size() + kPiecePoints - 1) / kPiecePoints, threads, [&](std::size_t piece) {
     const std::size_t last = std::min(polar.size(), (piece + 1) * kPiecePoints);
     for (std::size_t i = piece * kPiecePoints; i < last; ++i) {

@@ -22,6 +22,9 @@ std::vector<std::int32_t> ring_values(const PointCloud& cloud);
 std::vector<std::int16_t> assign_rows(const SensorModel& model, const PointCloud& cloud,
                                       const PolarPoints& polar, int threads);
 
+// By height alone: for clouds in no order, and while there are no rows yet. Points without a ray: kNoRow.
+std::vector<std::int16_t> nearest_rows(const SensorModel& model, const PolarPoints& polar, int threads = 1);
+
 // Moves points that miss their row by far to the nearest one: around the seam of compensated sweeps a run's
 // ends belong to its neighbours.
 void settle_rows(const SensorModel& model, const PolarPoints& polar, std::vector<std::int16_t>& rows);

@@ -22,7 +22,6 @@ class SensorEstimator {
  private:
   GridOptions options_;
   std::optional<SensorModel> model_;
-  int sweeps_ = 0;
 };
 
 }  // namespace pointreel

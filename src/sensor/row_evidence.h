@@ -1,0 +1,22 @@
+// Which points of a cloud one laser measured, before anything is known of the sensor.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "pointreel/point_cloud.h"
+#include "sensor/polar_points.h"
+#include "sensor/tick_lattice.h"
+
+namespace pointreel {
+
+struct RowEvidence {
+  RowPoints points;                // for each row, in any order of rows
+  std::vector<std::int32_t> ring;  // of each row; empty without a ring field
+};
+
+// All that the cloud offers, the best first: its ring field, runs once around, clusters of elevation. None
+// has more than kMaxRows rows or a row without points.
+std::vector<RowEvidence> find_row_evidence(const PointCloud& cloud, const PolarPoints& polar);
+
+}  // namespace pointreel
