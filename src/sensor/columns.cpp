@@ -11,9 +11,10 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
-// A column that fewer rows use is none: its points are sent apart, which is cheaper.
-std::uint32_t least_support(std::size_t rows) {
-  return rows >= 16 ? 3 : rows >= 4 ? 2 : 1;
+// A column that fewer points use is none: they are sent apart, which is cheaper, unless all columns are thin.
+std::uint32_t least_support(std::size_t points, std::size_t places) {
+  return static_cast<std::uint32_t>(
+      std::min<std::size_t>(3, 1 + points / std::max<std::size_t>(1, 16 * places)));
 }
 
 std::size_t most_columns(std::size_t rows) {
@@ -53,12 +54,18 @@ SweepColumns columns_on_lattice(const SensorModel& model, const std::vector<std:
   std::vector<std::uint32_t> support(end, 0);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i] < 0) continue;
-    auto tick = static_cast<std::uint32_t>(azimuth_rad[i] * ticks_per_rad + 0.5);
+    auto tick = static_cast<std::uint32_t>(std::max(0.0, azimuth_rad[i]) * ticks_per_rad + 0.5);
     if (tick >= end) tick -= turn;
     columns.column_of_point[i] = static_cast<std::int32_t>(tick);
     ++support[tick];
   }
-  const std::uint32_t least = least_support(model.rows.size());
+  std::size_t points = 0;
+  std::size_t used = 0;
+  for (const std::uint32_t count : support) {
+    points += count;
+    used += count > 0 ? 1 : 0;
+  }
+  const std::uint32_t least = least_support(points, used);
   std::vector<std::int32_t> column_of_tick(end, -1);
   for (std::uint32_t tick = 0; tick < end; ++tick) {
     if (support[tick] < least || columns.tick.size() >= most_columns(model.rows.size())) continue;
@@ -129,8 +136,8 @@ SweepColumns free_columns(const SensorModel& model, const PolarPoints& polar,
   std::vector<std::uint32_t> bin_of_point(rows.size(), 0);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i] < 0) continue;
-    const auto b =
-        std::min(bins - 1, static_cast<std::size_t>(azimuth_rad[i] / span * static_cast<double>(bins)));
+    const auto b = std::min(
+        bins - 1, static_cast<std::size_t>(std::max(0.0, azimuth_rad[i]) / span * static_cast<double>(bins)));
     const double weight = std::min(static_cast<double>(polar.rho_m[i]), 20.0);
     bin_of_point[i] = static_cast<std::uint32_t>(b);
     ++histogram[b].points;
@@ -147,7 +154,9 @@ SweepColumns free_columns(const SensorModel& model, const PolarPoints& polar,
     std::size_t first, count;  // bins, from `first` cyclically
   };
   std::vector<Cluster> clusters;
-  const std::uint32_t least = least_support(model.rows.size());
+  const auto points = static_cast<std::size_t>(
+      std::count_if(rows.begin(), rows.end(), [](std::int16_t row) { return row >= 0; }));
+  const std::uint32_t least = least_support(points, static_cast<std::size_t>(kTurn / step));
   const auto close = [&](std::size_t first, std::size_t last) {  // offsets from start
     // Longer than a step: cut at the emptiest bins.
     std::size_t from = first;
@@ -160,17 +169,17 @@ SweepColumns free_columns(const SensorModel& model, const PolarPoints& polar,
           if (histogram[(start + b) % bins].points < histogram[(start + to) % bins].points) to = b;
         }
       }
-      std::uint32_t points = 0;
+      std::uint32_t support = 0;
       double weight = 0;
       double sum = 0;
       for (std::size_t b = from; b < to; ++b) {
         const Bin& bin = histogram[(start + b) % bins];
-        points += bin.points;
+        support += bin.points;
         weight += bin.weight;
         sum +=
             bin.sum + bin.weight * (static_cast<double>(start + b) + 0.5) * span / static_cast<double>(bins);
       }
-      if (points >= least && weight > 0) {
+      if (support >= least && weight > 0) {
         double azimuth = sum / weight;
         if (azimuth >= span) azimuth -= span;
         clusters.push_back({azimuth, (start + from) % bins, to - from});
@@ -194,7 +203,8 @@ SweepColumns free_columns(const SensorModel& model, const PolarPoints& polar,
   std::vector<std::int32_t> column_of_bin(bins, -1);
   const std::uint32_t end = (unwrapped ? 2 : 1) * columns.ticks_per_turn;
   for (const Cluster& cluster : clusters) {
-    auto tick = static_cast<std::uint32_t>(cluster.azimuth / kTurn * columns.ticks_per_turn + 0.5);
+    auto tick =
+        static_cast<std::uint32_t>(std::max(0.0, cluster.azimuth) / kTurn * columns.ticks_per_turn + 0.5);
     if (tick >= end) tick = end - 1;
     if (columns.tick.empty() ? tick >= columns.ticks_per_turn : false) continue;
     if (columns.tick.empty() || tick > columns.tick.back()) {

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kSmallStepRad = 0.35;  // rows look up to 20 deg apart
+constexpr double kHairRad = 1e-3;
 
 }  // namespace
 
@@ -47,33 +48,33 @@ std::optional<FiringOrder> find_firing_order(const std::vector<double>& azimuth_
   // A scan that stays within a part of the turn can be in this order, too, but only if it goes one way.
   if (span >= 1.95 * kTurn || std::fabs(last - first) < 0.8 * span) return {};
   order.descending = last < first;
-  const double origin = std::floor(lowest / kTurn) * kTurn;
+  // A first point a hair before azimuth 0 stays there.
+  const double origin = std::floor((lowest + kHairRad) / kTurn) * kTurn;
   for (std::size_t i = 0; i < azimuth_rad.size(); ++i) {
     if (rows[i] < 0) continue;
     double& azimuth = order.azimuth_rad[i];
     azimuth -= origin;
-    while (azimuth < 0) azimuth += kTurn;
+    while (azimuth < -kHairRad) azimuth += kTurn;
     while (azimuth >= 2 * kTurn) azimuth -= kTurn;
   }
   return order;
 }
 
-std::vector<double> row_leads_rad(const PolarPoints& polar, const std::vector<std::int16_t>& rows,
-                                  std::size_t row_count) {
+std::vector<double> row_leads_rad(const std::vector<double>& azimuth_rad,
+                                  const std::vector<std::int16_t>& rows, std::size_t row_count) {
   // Median step to each row from the row most often before it.
   struct Step {
     std::int16_t from;
     double turn;
   };
   std::vector<std::vector<Step>> steps(row_count);
-  std::size_t before = polar.size();
+  std::size_t before = rows.size();
   double advance = 0;
   std::size_t pairs = 0;
-  for (std::size_t i = 0; i < polar.size(); ++i) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i] < 0) continue;
-    if (before < polar.size()) {
-      const double turn = std::remainder(
-          static_cast<double>(polar.azimuth_rad[i]) - static_cast<double>(polar.azimuth_rad[before]), kTurn);
+    if (before < rows.size()) {
+      const double turn = std::remainder(azimuth_rad[i] - azimuth_rad[before], kTurn);
       steps[static_cast<std::size_t>(rows[i])].push_back({rows[before], turn});
       if (std::fabs(turn) < kSmallStepRad) advance += turn;
       ++pairs;

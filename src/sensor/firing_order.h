@@ -5,13 +5,11 @@
 #include <optional>
 #include <vector>
 
-#include "sensor/polar_points.h"
-
 namespace pointreel {
 
 struct FiringOrder {
   bool descending = false;          // the azimuth falls with time
-  std::vector<double> azimuth_rad;  // per point, unwrapped: within [0, 4 pi), first turn from the lowest
+  std::vector<double> azimuth_rad;  // per point, unwrapped: from 0, or a hair less, to 4 pi
 };
 
 // From azimuths in [0, 2 pi) in the order of the points; rows[i] < 0: no such point. None when the points do
@@ -21,8 +19,8 @@ std::optional<FiringOrder> find_firing_order(const std::vector<double>& azimuth_
 
 // How far each row's azimuth is ahead of the mean at the same firing, from the steps between successive
 // points.
-std::vector<double> row_leads_rad(const PolarPoints& polar, const std::vector<std::int16_t>& rows,
-                                  std::size_t row_count);
+std::vector<double> row_leads_rad(const std::vector<double>& azimuth_rad,
+                                  const std::vector<std::int16_t>& rows, std::size_t row_count);
 
 // Rows in the order in which the points of a column come; column_of_point < 0: none.
 std::vector<std::uint16_t> row_sequence_of(const std::vector<std::int16_t>& rows,

@@ -188,7 +188,7 @@ PointOrder find_order(const SensorModel& model, const GriddedSweep& sweep,
       if (walk[i] < walk[i - 1]) ++falling;
     }
     if (same_row * 2 < walk.size()) return {};
-    kinds = {OrderKind::row_major, OrderKind::row_azimuth};
+    kinds = {OrderKind::row_azimuth, OrderKind::row_major};
     grid.order.descending = falling * 2 > same_row;
     grid.order.seam_tick = find_seam(model, grid, walk, grid.order.descending);
   }
@@ -205,6 +205,7 @@ PointOrder find_order(const SensorModel& model, const GriddedSweep& sweep,
     if (moved >= fewest) continue;
     fewest = moved;
     best = grid.order;
+    if (moved < walk.size() / 500) break;
   }
   return best;
 }

@@ -11,6 +11,7 @@
 #include "sensor/firing_order.h"
 #include "sensor/point_order.h"
 #include "sensor/polar_points.h"
+#include "sensor/ray_table.h"
 #include "sensor/row_assignment.h"
 #include "sensor/twist_fit.h"
 
@@ -77,6 +78,26 @@ void measure(const SensorModel& model, const PolarPoints& polar, const std::vect
   });
 }
 
+// The seam of the compensation, behind the sensor: whether a point was measured before or after it is for its
+// cell to say, and the other side is a sweep's motion away.
+void check_seam(const SensorModel& model, const PointCloud& cloud, const PolarPoints& polar,
+                const GridOptions& options, GriddedSweep& sweep) {
+  constexpr float kNearSeamRad = 0.01F;
+  const RayTable rays(model, sweep.grid);
+  const std::size_t columns = sweep.grid.column_count();
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (sweep.cell_of_point[i] < 0 ||
+        std::fabs(polar.azimuth_rad[i]) < static_cast<float>(kTurn / 2) - kNearSeamRad)
+      continue;
+    const auto cell = static_cast<std::size_t>(sweep.cell_of_point[i]);
+    const Point3f p = rays.position(cell / columns, cell % columns, sweep.range_m[i]);
+    const Point3f& q = cloud.positions[i];
+    const float away = std::hypot(p.x - q.x, p.y - q.y, p.z - q.z);
+    sweep.deviation_m[i] = away;
+    if (static_cast<double>(away) > options.max_deviation_m) make_stray(sweep, i, StrayReason::off_column);
+  }
+}
+
 // One point per cell: the one that fits best, the first of equals.
 void resolve_collisions(std::size_t cells, GriddedSweep& sweep) {
   std::vector<std::int32_t> owner(cells, -1);
@@ -125,6 +146,7 @@ GriddedSweep project(const SensorModel& model, const PointCloud& cloud, const Gr
   sweep.grid.ticks_per_turn = columns.ticks_per_turn;
   sweep.grid.column_tick = columns.tick;
   measure(model, polar, rows, azimuths, columns, options, sweep);
+  if (sweep.grid.motion) check_seam(model, cloud, polar, options, sweep);
   for (std::size_t i = 0; i < count; ++i) {
     if (!is_finite(cloud.positions[i])) sweep.stray_reason[i] = StrayReason::non_finite;
   }

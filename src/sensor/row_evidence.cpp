@@ -49,8 +49,7 @@ RowEvidence rows_from_runs(const PolarPoints& polar) {
   return evidence;
 }
 
-// Histogram of elevations seen from `origin_m` on the axis; far points only, whose elevation the lasers' own
-// offsets hardly change.
+// Histogram of elevations seen from somewhere on the axis.
 struct ElevationBins {
   static constexpr std::size_t kBins = 6000;
   static constexpr double kWidth = std::numbers::pi / kBins;
@@ -67,14 +66,7 @@ struct ElevationBins {
 
 // Peaks of elevation, each made a row by a line through it, and all points then given to the nearest line.
 RowEvidence rows_from_elevations(const PolarPoints& polar) {
-  std::vector<float> rhos;
-  for (const float rho : polar.rho_m) {
-    if (rho > 0) rhos.push_back(rho);
-  }
-  if (rhos.size() < 200) return {};
-  const auto far = rhos.begin() + static_cast<std::ptrdiff_t>(rhos.size() * 2 / 3);
-  std::nth_element(rhos.begin(), far, rhos.end());
-  const float least_rho = *far;
+  constexpr float kNearM = 2;
   ElevationBins sharpest;
   double best = -1;
   double origin_m = 0;
@@ -82,7 +74,7 @@ RowEvidence rows_from_elevations(const PolarPoints& polar) {
     const double candidate_m = k * 0.02;
     ElevationBins bins;
     for (std::size_t i = 0; i < polar.size(); ++i) {
-      if (polar.has_ray(i) && polar.rho_m[i] >= least_rho)
+      if (polar.rho_m[i] >= kNearM)
         ++bins.points[ElevationBins::bin(
             std::atan2(polar.z_m[i] - candidate_m, static_cast<double>(polar.rho_m[i])))];
     }
@@ -122,7 +114,7 @@ RowEvidence rows_from_elevations(const PolarPoints& polar) {
     const auto rows = nearest_rows(lines, polar);
     evidence.points.assign(lines.rows.size(), {});
     for (std::size_t i = 0; i < polar.size(); ++i) {
-      if (rows[i] < 0 || (round == 0 && polar.rho_m[i] < least_rho)) continue;
+      if (rows[i] < 0 || (round == 0 && polar.rho_m[i] < kNearM)) continue;
       evidence.points[static_cast<std::size_t>(rows[i])].push_back(static_cast<std::uint32_t>(i));
     }
     for (std::size_t r = 0; r < lines.rows.size(); ++r) {

@@ -54,13 +54,11 @@ class ModelFit {
   SensorModel fit() {
     if (model_.rows.empty()) return model_;
     const bool in_firing_order = find_firing_order(azimuths(), row_of_point_).has_value();
-    std::vector<double> leads;
-    if (in_firing_order) leads = row_leads_rad(polar_, row_of_point_, model_.rows.size());
     model_.ticks_per_turn = find_ticks_per_turn(polar_, points_);
     if (model_.ticks_per_turn > 0) {
-      fit_lattice(leads);
+      fit_lattice(in_firing_order);
     } else {
-      fit_columns(leads);
+      fit_columns(in_firing_order);
     }
     // A common turn of all rows means nothing; the median row is put at 0.
     centre_azimuths();
@@ -72,34 +70,39 @@ class ModelFit {
  private:
   std::vector<double> azimuths() const { return column_azimuths(model_, polar_, row_of_point_, threads_); }
 
-  void fit_lattice(const std::vector<double>& leads) {
+  void fit_lattice(bool in_firing_order) {
     const std::size_t rows = model_.rows.size();
     const double tick_rad = kTurn / model_.ticks_per_turn;
-    std::vector<std::vector<std::uint32_t>> ticks(rows);
     parallel_for(rows, threads_, [&](std::size_t r) {
       const RowAzimuth fit = fit_row_azimuth(polar_, points_[r], model_.ticks_per_turn);
-      RowModel& row = model_.rows[r];
-      row.side_offset_m = fit.side_offset_m;
-      row.azimuth_rad = fit.phase_rad;
-      if (!leads.empty()) row.azimuth_rad += std::nearbyint((leads[r] - fit.phase_rad) / tick_rad) * tick_rad;
-      for (const std::uint32_t i : points_[r]) {
-        double azimuth = static_cast<double>(polar_.azimuth_rad[i]) - row.azimuth_rad -
-                         std::atan(row.side_offset_m / static_cast<double>(polar_.rho_m[i]));
-        azimuth -= kTurn * std::floor(azimuth / kTurn);
-        ticks[r].push_back(static_cast<std::uint32_t>(azimuth / tick_rad + 0.5) % model_.ticks_per_turn);
-      }
+      model_.rows[r].side_offset_m = fit.side_offset_m;
+      model_.rows[r].azimuth_rad = fit.phase_rad;
     });
-    if (!leads.empty()) return;
+    const auto azimuth = azimuths();
+    if (in_firing_order) {
+      const auto leads = row_leads_rad(azimuth, row_of_point_, rows);
+      for (std::size_t r = 0; r < rows; ++r)
+        model_.rows[r].azimuth_rad += std::nearbyint((leads[r] - leads[0]) / tick_rad) * tick_rad;
+      return;
+    }
+    std::vector<std::vector<std::uint32_t>> ticks(rows);
+    for (std::size_t r = 0; r < rows; ++r) {
+      for (const std::uint32_t i : points_[r])
+        ticks[r].push_back(static_cast<std::uint32_t>(azimuth[i] / tick_rad + 0.5) % model_.ticks_per_turn);
+    }
     const auto shifts = align_rows(ticks, model_.ticks_per_turn);
     for (std::size_t r = 0; r < rows; ++r) model_.rows[r].azimuth_rad -= shifts[r] * tick_rad;
   }
 
   // No lattice: columns and rows in turns, each from the other's azimuths.
-  void fit_columns(const std::vector<double>& leads) {
+  void fit_columns(bool in_firing_order) {
     constexpr int kRounds = 4;
     constexpr double kMostSideM = 0.15;
     const std::size_t rows = model_.rows.size();
-    for (std::size_t r = 0; r < rows && !leads.empty(); ++r) model_.rows[r].azimuth_rad = leads[r];
+    if (in_firing_order) {
+      const auto leads = row_leads_rad(azimuths(), row_of_point_, rows);
+      for (std::size_t r = 0; r < rows; ++r) model_.rows[r].azimuth_rad = leads[r];
+    }
     for (int round = 0; round < kRounds; ++round) {
       const SweepColumns columns = columns_now();
       if (columns.tick.empty()) return;

@@ -81,7 +81,7 @@ std::uint32_t find_ticks_per_turn(const PolarPoints& polar, const RowPoints& row
     scores[n] = static_cast<double>(sum) / static_cast<double>(count);
     best = std::max(best, scores[n]);
   }
-  if (best < 0.5) return 0;
+  if (best < 0.75) return 0;
   // Multiples of the lattice's number score nearly as well; the smallest is the sensor's.
   for (std::uint32_t n = kFewest; n < kMost; ++n) {
     if (scores[n] > 0.85 * best && scores[n] >= scores[n + 1]) return n;
