@@ -55,8 +55,7 @@ class RowWalk {
     if (grid_.order.descending) std::reverse(keyed_.begin(), keyed_.end());
     const auto least = std::min_element(keyed_.begin(), keyed_.end(), earlier);
     std::rotate(keyed_.begin(), least, keyed_.end());
-    if (!std::is_sorted(keyed_.begin(), keyed_.end(), earlier))
-      std::sort(keyed_.begin(), keyed_.end(), earlier);
+    sort_nearly_sorted(earlier);
     for (const Keyed& keyed : keyed_) cells.push_back(keyed.cell);
   }
 
@@ -65,6 +64,25 @@ class RowWalk {
     double key;
     std::uint32_t cell;
   };
+  // By insertion while that is cheap, which hostile ranges may not let it be.
+  template <class Earlier>
+  void sort_nearly_sorted(const Earlier& earlier) {
+    std::size_t work = 8 * keyed_.size();
+    for (std::size_t i = 1; i < keyed_.size(); ++i) {
+      const Keyed inserted = keyed_[i];
+      std::size_t place = i;
+      for (; place > 0 && earlier(inserted, keyed_[place - 1]); --place) {
+        keyed_[place] = keyed_[place - 1];
+        if (--work == 0) {
+          keyed_[place - 1] = inserted;
+          std::sort(keyed_.begin(), keyed_.end(), earlier);
+          return;
+        }
+      }
+      keyed_[place] = inserted;
+    }
+  }
+
   std::span<const std::uint8_t> occupied_;
   std::span<const float> range_m_;
   const SensorModel& model_;

@@ -73,7 +73,7 @@ std::vector<std::int16_t> rows_by_ring(const SensorModel& model, const std::vect
 // The row of a run: the one that its points lie neither above nor below, in the median (compensated sweeps
 // are bent both ways, so medians still tell).
 std::int16_t row_of_run(const SensorModel& model, const PolarPoints& polar, std::size_t first,
-                        std::size_t last, double& misfit) {
+                        std::size_t last, std::size_t least_row, std::size_t end_row, double& misfit) {
   constexpr std::size_t kSamples = 48;
   std::array<std::size_t, kSamples> samples{};
   std::size_t count = 0;
@@ -85,7 +85,7 @@ std::int16_t row_of_run(const SensorModel& model, const PolarPoints& polar, std:
   misfit = std::numeric_limits<double>::infinity();
   if (count == 0) return best;
   std::array<float, kSamples> elevations{};
-  for (std::size_t row = 0; row < model.rows.size(); ++row) {
+  for (std::size_t row = least_row; row < end_row; ++row) {
     for (std::size_t s = 0; s < count; ++s) {
       const std::size_t i = samples[s];
       elevations[s] = static_cast<float>(height_above_row_m(model.rows[row], polar.rho_m[i], polar.z_m[i]) /
@@ -119,16 +119,27 @@ std::vector<std::int16_t> rows_by_runs(const SensorModel& model, const PolarPoin
   constexpr std::size_t kShortRun = 24;
   const RowRuns runs = split_into_runs(polar);
   if (runs.runs() > 4 * model.rows.size() + 16) return {};
+  if (runs.runs() * 4 < model.rows.size()) return {};  // whole turns of all rows: column by column
   const double tolerance = run_tolerance(model);
   std::vector<std::int16_t> rows(polar.size(), kNoRow);
+  constexpr std::size_t kAhead = 5;
+  const std::size_t count = model.rows.size();
   std::size_t fitting = 0;
+  std::size_t row_before = 0;
   for (std::size_t run = 0; run < runs.runs(); ++run) {
     const std::size_t first = runs.first[run];
     const std::size_t last = runs.end(run, polar.size());
     double misfit = 0;
     std::int16_t row = kNoRow;
-    if (last - first > kShortRun) row = row_of_run(model, polar, first, last, misfit);
+    if (last - first > kShortRun) {
+      // Most often one of the next rows.
+      const std::size_t near_end = std::min(count, row_before + kAhead);
+      row =
+          row_of_run(model, polar, first, last, row_before - std::min(row_before, kAhead), near_end, misfit);
+      if (misfit >= tolerance) row = row_of_run(model, polar, first, last, 0, count, misfit);
+    }
     const bool fits = row != kNoRow && misfit < tolerance;
+    if (fits) row_before = static_cast<std::size_t>(row);
     if (fits) fitting += last - first;
     for (std::size_t i = first; i < last; ++i) {
       if (polar.has_ray(i)) rows[i] = fits ? row : nearest(polar.rho_m[i], polar.z_m[i]);

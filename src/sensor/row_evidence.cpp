@@ -67,13 +67,15 @@ struct ElevationBins {
 // Peaks of elevation, each made a row by a line through it, and all points then given to the nearest line.
 RowEvidence rows_from_elevations(const PolarPoints& polar) {
   constexpr float kNearM = 2;
+  constexpr std::size_t kSamples = 40000;
+  const std::size_t stride = polar.size() / kSamples + 1;
   ElevationBins sharpest;
   double best = -1;
   double origin_m = 0;
   for (int k = -15; k <= 15; ++k) {
     const double candidate_m = k * 0.02;
     ElevationBins bins;
-    for (std::size_t i = 0; i < polar.size(); ++i) {
+    for (std::size_t i = 0; i < polar.size(); i += stride) {
       if (polar.rho_m[i] >= kNearM)
         ++bins.points[ElevationBins::bin(
             std::atan2(polar.z_m[i] - candidate_m, static_cast<double>(polar.rho_m[i])))];
@@ -133,16 +135,18 @@ RowEvidence rows_from_elevations(const PolarPoints& polar) {
 
 }  // namespace
 
-std::vector<RowEvidence> find_row_evidence(const PointCloud& cloud, const PolarPoints& polar) {
-  std::vector<RowEvidence> found;
-  const auto take = [&](RowEvidence evidence) {
-    if (!evidence.points.empty()) found.push_back(std::move(evidence));
-  };
-  const auto rings = ring_values(cloud);
-  if (!rings.empty()) take(rows_from_rings(rings, polar));
-  take(rows_from_runs(polar));
-  take(rows_from_elevations(polar));
-  return found;
+RowEvidence find_row_evidence(EvidenceKind kind, const PointCloud& cloud, const PolarPoints& polar) {
+  switch (kind) {
+    case EvidenceKind::ring: {
+      const auto rings = ring_values(cloud);
+      return rings.empty() ? RowEvidence{} : rows_from_rings(rings, polar);
+    }
+    case EvidenceKind::runs:
+      return rows_from_runs(polar);
+    case EvidenceKind::elevations:
+      return rows_from_elevations(polar);
+  }
+  return {};
 }
 
 }  // namespace pointreel

@@ -15,8 +15,11 @@ struct RowEvidence {
   std::vector<std::int32_t> ring;  // of each row; empty without a ring field
 };
 
-// All that the cloud offers, the best first: its ring field, runs once around, clusters of elevation. None
-// has more than kMaxRows rows or a row without points.
-std::vector<RowEvidence> find_row_evidence(const PointCloud& cloud, const PolarPoints& polar);
+// The best first.
+enum class EvidenceKind : std::uint8_t { ring, runs, elevations };
+
+// Rows from the cloud's ring field, from runs once around, or from clusters of elevation. None has more than
+// kMaxRows rows or a row without points; no rows when the cloud does not offer this kind.
+RowEvidence find_row_evidence(EvidenceKind kind, const PointCloud& cloud, const PolarPoints& polar);
 
 }  // namespace pointreel

@@ -78,19 +78,21 @@ class ModelFit {
       model_.rows[r].side_offset_m = fit.side_offset_m;
       model_.rows[r].azimuth_rad = fit.phase_rad;
     });
-    const auto azimuth = azimuths();
+    std::uint32_t most_ticks = model_.ticks_per_turn / 8;  // rows look at most 45 deg ahead
     if (in_firing_order) {
-      const auto leads = row_leads_rad(azimuth, row_of_point_, rows);
+      constexpr std::uint32_t kLeadErrorTicks = 6;
+      const auto leads = row_leads_rad(azimuths(), row_of_point_, rows);
       for (std::size_t r = 0; r < rows; ++r)
         model_.rows[r].azimuth_rad += std::nearbyint((leads[r] - leads[0]) / tick_rad) * tick_rad;
-      return;
+      most_ticks = kLeadErrorTicks;
     }
+    const auto azimuth = azimuths();
     std::vector<std::vector<std::uint32_t>> ticks(rows);
     for (std::size_t r = 0; r < rows; ++r) {
       for (const std::uint32_t i : points_[r])
         ticks[r].push_back(static_cast<std::uint32_t>(azimuth[i] / tick_rad + 0.5) % model_.ticks_per_turn);
     }
-    const auto shifts = align_rows(ticks, model_.ticks_per_turn);
+    const auto shifts = align_rows(ticks, model_.ticks_per_turn, most_ticks);
     for (std::size_t r = 0; r < rows; ++r) model_.rows[r].azimuth_rad -= shifts[r] * tick_rad;
   }
 
@@ -212,7 +214,9 @@ bool is_usable(const SensorModel& model, const PointCloud& cloud, const GridOpti
 void SensorEstimator::add(const PointCloud& cloud) {
   if (model_) return;
   const PolarPoints polar = polar_points(cloud, {}, options_.threads);
-  for (const RowEvidence& evidence : find_row_evidence(cloud, polar)) {
+  for (const EvidenceKind kind : {EvidenceKind::ring, EvidenceKind::runs, EvidenceKind::elevations}) {
+    const RowEvidence evidence = find_row_evidence(kind, cloud, polar);
+    if (evidence.points.empty()) continue;
     SensorModel model = ModelFit(polar, evidence, options_.threads).fit();
     if (model.ticks_per_turn == 0) {
       const auto blind = find_twist_blind(cloud, evidence.points);

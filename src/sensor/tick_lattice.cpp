@@ -210,12 +210,12 @@ class TickSet {
 }  // namespace
 
 std::vector<std::int32_t> align_rows(const std::vector<std::vector<std::uint32_t>>& ticks,
-                                     std::uint32_t ticks_per_turn) {
+                                     std::uint32_t ticks_per_turn, std::uint32_t most_ticks) {
   const std::size_t rows = ticks.size();
   const std::uint32_t turn = ticks_per_turn;
   std::vector<std::int32_t> shifts(rows, 0);
   if (rows == 0 || turn == 0) return shifts;
-  const auto most = static_cast<std::int32_t>(turn / 8);  // rows point at most 45 deg ahead
+  const auto most = static_cast<std::int32_t>(most_ticks);
   std::vector<TickSet> sets(rows, TickSet(turn));
   std::size_t fullest = 0;
   for (std::size_t r = 0; r < rows; ++r) {

@@ -25,7 +25,8 @@ RowAzimuth fit_row_azimuth(const PolarPoints& polar, const std::vector<std::uint
 
 // Whole ticks by which each row is ahead of the others, from the pattern of the ticks in use: one of all
 // rows' patterns agree. ticks[row]: the row's ticks in [0, ticks_per_turn), phase taken out.
+// No row is moved by more than most_ticks.
 std::vector<std::int32_t> align_rows(const std::vector<std::vector<std::uint32_t>>& ticks,
-                                     std::uint32_t ticks_per_turn);
+                                     std::uint32_t ticks_per_turn, std::uint32_t most_ticks);
 
 }  // namespace pointreel

@@ -280,7 +280,7 @@ std::optional<BlindTwist> find_twist_blind(const PointCloud& cloud, const RowPoi
 }
 
 Twist find_twist(const SensorModel& model, const PointCloud& cloud, const std::vector<std::int16_t>& rows) {
-  constexpr std::size_t kSamples = 6000;
+  constexpr std::size_t kSamples = 3000;
   std::vector<Sample> samples;
   const std::size_t stride = cloud.size() / kSamples + 1;
   for (std::size_t i = 0; i < cloud.size(); i += stride) {
@@ -291,15 +291,15 @@ Twist find_twist(const SensorModel& model, const PointCloud& cloud, const std::v
   if (samples.size() < 50) return twist;
   std::stable_sort(samples.begin(), samples.end(),
                    [](const Sample& a, const Sample& b) { return a.row < b.row; });
-  for (int round = 0; round < 6; ++round) improve(samples, model.rows, 0, false, twist);
+  for (int round = 0; round < 4; ++round) improve(samples, model.rows, 0, false, twist);
   if (model.ticks_per_turn > 0) {
     // The yaw that puts most points on ticks, first coarsely.
     const PolarPoints polar = measured(samples, twist);
     const double n = model.ticks_per_turn;
     constexpr double kMostYaw = 0.2;
-    const double step = 1.0 / n;
+    const double step = 1.5 / n;
     std::vector<float> re, im, step_re, step_im;
-    for (std::size_t i = 0; i < samples.size(); i += 4) {
+    for (std::size_t i = 0; i < samples.size(); i += 2) {
       const double rho = polar.rho_m[i];
       if (rho < 4) continue;
       const RowModel& row = model.rows[samples[i].row];
