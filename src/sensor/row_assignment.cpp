@@ -177,6 +177,7 @@ std::vector<std::int32_t> ring_values(const PointCloud& cloud) {
 
 std::vector<std::int16_t> assign_rows(const SensorModel& model, const PointCloud& cloud,
                                       const PolarPoints& polar, int threads) {
+  if (model.rows.empty()) return std::vector<std::int16_t>(polar.size(), kNoRow);
   if (!model.ring_of_row.empty()) {
     const auto rings = ring_values(cloud);
     if (!rings.empty()) return rows_by_ring(model, rings, polar);
