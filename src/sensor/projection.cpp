@@ -78,17 +78,18 @@ void measure(const SensorModel& model, const PolarPoints& polar, const std::vect
   });
 }
 
-// The seam of the compensation, behind the sensor: whether a point was measured before or after it is for its
-// cell to say, and the other side is a sweep's motion away.
-void check_seam(const SensorModel& model, const PointCloud& cloud, const PolarPoints& polar,
-                const GridOptions& options, GriddedSweep& sweep) {
-  constexpr float kNearSeamRad = 0.01F;
+// Compensated sweeps: whether a point behind the sensor was measured before or after the seam is for its cell
+// to say, and the other side is a sweep's motion away. Near the axis, too, the way back may differ.
+void check_compensation(const SensorModel& model, const PointCloud& cloud, const PolarPoints& polar,
+                        const GridOptions& options, GriddedSweep& sweep) {
   const RayTable rays(model, sweep.grid);
   const std::size_t columns = sweep.grid.column_count();
+  const auto& [v, w] = *sweep.grid.motion;
+  const auto near_m = static_cast<float>(3 * std::hypot(v[0], v[1], v[2]));
+  const auto front_rad = static_cast<float>(kTurn / 2 - 0.01 - 10 * std::hypot(w[0], w[1]));
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (sweep.cell_of_point[i] < 0 ||
-        std::fabs(polar.azimuth_rad[i]) < static_cast<float>(kTurn / 2) - kNearSeamRad)
-      continue;
+    if (sweep.cell_of_point[i] < 0) continue;
+    if (std::fabs(polar.azimuth_rad[i]) < front_rad && polar.rho_m[i] > near_m) continue;
     const auto cell = static_cast<std::size_t>(sweep.cell_of_point[i]);
     const Point3f p = rays.position(cell / columns, cell % columns, sweep.range_m[i]);
     const Point3f& q = cloud.positions[i];
@@ -133,8 +134,8 @@ GriddedSweep project(const SensorModel& model, const PointCloud& cloud, const Gr
   if (model.motion_compensated) {
     sweep.grid.motion = find_twist(model, cloud, rows);
     polar = polar_points(cloud, sweep.grid.motion, options.threads);
-    settle_rows(model, polar, rows);
   }
+  settle_rows(model, polar, rows);
   auto azimuths = column_azimuths(model, polar, rows, options.threads);
   std::optional<bool> firing_descending;
   if (auto firing = find_firing_order(azimuths, rows)) {
@@ -146,7 +147,7 @@ GriddedSweep project(const SensorModel& model, const PointCloud& cloud, const Gr
   sweep.grid.ticks_per_turn = columns.ticks_per_turn;
   sweep.grid.column_tick = columns.tick;
   measure(model, polar, rows, azimuths, columns, options, sweep);
-  if (sweep.grid.motion) check_seam(model, cloud, polar, options, sweep);
+  if (sweep.grid.motion) check_compensation(model, cloud, polar, options, sweep);
   for (std::size_t i = 0; i < count; ++i) {
     if (!is_finite(cloud.positions[i])) sweep.stray_reason[i] = StrayReason::non_finite;
   }

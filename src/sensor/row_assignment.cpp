@@ -201,6 +201,7 @@ std::vector<std::int16_t> nearest_rows(const SensorModel& model, const PolarPoin
 
 void settle_rows(const SensorModel& model, const PolarPoints& polar, std::vector<std::int16_t>& rows) {
   constexpr double kFarM = 0.02;
+  if (!model.ring_of_row.empty() || model.rows.empty()) return;
   const NearestRow nearest(model);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i] < 0 || !polar.has_ray(i)) continue;

@@ -25,8 +25,8 @@ std::vector<std::int16_t> assign_rows(const SensorModel& model, const PointCloud
 // By height alone: for clouds in no order, and while there are no rows yet. Points without a ray: kNoRow.
 std::vector<std::int16_t> nearest_rows(const SensorModel& model, const PolarPoints& polar, int threads = 1);
 
-// Moves points that miss their row by far to the nearest one: around the seam of compensated sweeps a run's
-// ends belong to its neighbours.
+// Moves points that miss their row by far to the nearest one, where no ring field tells: around the seam a
+// run's ends may belong to its neighbours, and a cloud may have its seam elsewhere.
 void settle_rows(const SensorModel& model, const PolarPoints& polar, std::vector<std::int16_t>& rows);
 
 // Distance of a point from the cone that row's laser sweeps, across the ray; positive above.

@@ -112,20 +112,38 @@ RowEvidence rows_from_elevations(const PolarPoints& polar) {
   for (auto centre = centres.rbegin(); centre != centres.rend(); ++centre)
     lines.rows.push_back({std::tan(*centre), origin_m, 0, 0});
   RowEvidence evidence;
-  for (int round = 0; round < 3; ++round) {
+  for (int round = 0; round < 4; ++round) {
     const auto rows = nearest_rows(lines, polar);
     evidence.points.assign(lines.rows.size(), {});
     for (std::size_t i = 0; i < polar.size(); ++i) {
       if (rows[i] < 0 || (round == 0 && polar.rho_m[i] < kNearM)) continue;
       evidence.points[static_cast<std::size_t>(rows[i])].push_back(static_cast<std::uint32_t>(i));
     }
+    if (round == 3) break;
+    std::vector<double> scatters_m;
+    std::vector<std::size_t> counts;
     for (std::size_t r = 0; r < lines.rows.size(); ++r) {
       const RowFit fit = fit_row(polar, evidence.points[r]);
       if (fit.usable && std::fabs(fit.offset_m) < 0.5) {
         lines.rows[r].slope = fit.slope;
         lines.rows[r].offset_m = fit.offset_m;
       }
+      scatters_m.push_back(fit.usable ? fit.scatter_m : 1.0);
+      counts.push_back(evidence.points[r].size());
     }
+    // What is no laser, but a wall or the ground between two, has few points or scatters.
+    auto sorted_scatters = scatters_m;
+    auto sorted_counts = counts;
+    std::sort(sorted_scatters.begin(), sorted_scatters.end());
+    std::sort(sorted_counts.begin(), sorted_counts.end());
+    const double most_m = std::max(0.005, 8 * sorted_scatters[sorted_scatters.size() / 2]);
+    const std::size_t fewest = sorted_counts[sorted_counts.size() / 2] / 10;
+    SensorModel kept;
+    for (std::size_t r = 0; r < lines.rows.size(); ++r) {
+      if (scatters_m[r] <= most_m && counts[r] >= fewest) kept.rows.push_back(lines.rows[r]);
+    }
+    if (kept.rows.size() < 2) return {};
+    lines = std::move(kept);
     std::sort(lines.rows.begin(), lines.rows.end(),
               [](const RowModel& a, const RowModel& b) { return a.slope > b.slope; });
   }

@@ -42,12 +42,26 @@ class ModelFit {
     std::stable_sort(group_of_row.begin(), group_of_row.end(),
                      [&](std::size_t a, std::size_t b) { return fits[a].slope > fits[b].slope; });
     row_of_point_.assign(polar.size(), kNoRow);
+    const bool has_rings = !evidence.ring.empty();
     for (const std::size_t g : group_of_row) {
-      const auto row = static_cast<std::int16_t>(model_.rows.size());
-      for (const std::uint32_t i : evidence.points[g]) row_of_point_[i] = row;
-      model_.rows.push_back({fits[g].slope, fits[g].offset_m, 0, 0});
-      points_.push_back(evidence.points[g]);
-      if (!evidence.ring.empty()) model_.ring_of_row.push_back(evidence.ring[g]);
+      // A row that was cut in two, or found twice.
+      const bool again = !has_rings && !model_.rows.empty() && is_same(model_.rows.back(), fits[g]);
+      if (!again) {
+        model_.rows.push_back({fits[g].slope, fits[g].offset_m, 0, 0});
+        if (has_rings) model_.ring_of_row.push_back(evidence.ring[g]);
+      }
+      for (const std::uint32_t i : evidence.points[g])
+        row_of_point_[i] = static_cast<std::int16_t>(model_.rows.size() - 1);
+    }
+    settle_rows(model_, polar, row_of_point_);
+    points_.resize(model_.rows.size());
+    for (std::size_t i = 0; i < polar.size(); ++i) {
+      if (row_of_point_[i] >= 0)
+        points_[static_cast<std::size_t>(row_of_point_[i])].push_back(static_cast<std::uint32_t>(i));
+    }
+    // A row whose points all belong to others is none.
+    for (std::size_t r = points_.size(); r-- > 0;) {
+      if (points_[r].empty()) drop_row(r);
     }
   }
 
@@ -68,6 +82,25 @@ class ModelFit {
   }
 
  private:
+  static bool is_same(const RowModel& row, const RowFit& fit) {
+    constexpr double kNearM = 10;
+    constexpr double kFarM = 50;
+    constexpr double kSameM = 0.005;
+    const double slope = row.slope - fit.slope;
+    const double offset_m = row.offset_m - fit.offset_m;
+    return std::fabs(slope * kNearM + offset_m) < kSameM && std::fabs(slope * kFarM + offset_m) < 5 * kSameM;
+  }
+
+  void drop_row(std::size_t row) {
+    const auto at = static_cast<std::ptrdiff_t>(row);
+    model_.rows.erase(model_.rows.begin() + at);
+    points_.erase(points_.begin() + at);
+    if (!model_.ring_of_row.empty()) model_.ring_of_row.erase(model_.ring_of_row.begin() + at);
+    for (std::int16_t& other : row_of_point_) {
+      if (other > static_cast<std::int16_t>(row)) --other;
+    }
+  }
+
   std::vector<double> azimuths() const { return column_azimuths(model_, polar_, row_of_point_, threads_); }
 
   void fit_lattice(bool in_firing_order) {
