@@ -137,7 +137,7 @@ RowEvidence rows_from_elevations(const PolarPoints& polar) {
     std::sort(sorted_scatters.begin(), sorted_scatters.end());
     std::sort(sorted_counts.begin(), sorted_counts.end());
     const double most_m = std::max(0.005, 8 * sorted_scatters[sorted_scatters.size() / 2]);
-    const std::size_t fewest = sorted_counts[sorted_counts.size() / 2] / 10;
+    const std::size_t fewest = sorted_counts[sorted_counts.size() / 2] / 5;
     SensorModel kept;
     for (std::size_t r = 0; r < lines.rows.size(); ++r) {
       if (scatters_m[r] <= most_m && counts[r] >= fewest) kept.rows.push_back(lines.rows[r]);

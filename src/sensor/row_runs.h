@@ -17,7 +17,8 @@ struct RowRuns {
   }
 };
 
-// A new run starts where the azimuth in [0, 2 pi) jumps back by more than 1 rad.
+// A new run starts where the azimuth jumps back by more than 1 rad; it is taken in [0, 2 pi) or in [-pi, pi),
+// whichever makes the straighter runs.
 RowRuns split_into_runs(const PolarPoints& polar);
 
 }  // namespace pointreel
