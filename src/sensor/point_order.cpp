@@ -15,7 +15,7 @@ constexpr double kTurn = 2 * kPi;
 double turned(double azimuth_rad) {
   while (azimuth_rad < 0) azimuth_rad += kTurn;
   while (azimuth_rad >= kTurn) azimuth_rad -= kTurn;
-  return azimuth_rad;
+  return azimuth_rad >= 0 ? azimuth_rad : 0;  // not a number, which no sort can bear
 }
 
 // Appends the occupied cells of one row, once around from the seam.

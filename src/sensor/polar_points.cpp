@@ -7,8 +7,8 @@
 #include "base/trigonometry.h"
 
 namespace pointreel {
-// Two rounds from the azimuth of p leave an error of
-// (v / 2 pi rho)^2 of the shift, a third removes it.
+
+// Two rounds from the azimuth of p leave an error of (v / 2 pi rho)^2 of the shift, a third removes it.
 Point3f as_measured(const Point3f& p, const Twist& twist) {
   const auto& v = twist.v_m;
   const auto& w = twist.w_rad;
@@ -27,8 +27,8 @@ Point3f as_measured(const Point3f& p, const Twist& twist) {
         static_cast<double>(fast_atan2(static_cast<float>(qy), static_cast<float>(qx))) / (2 * kPi);
     const double t = s * angle;  // below pi for any sane sweep
     const double t2 = t * t;
-    const double sine = t * (1 - t2 / 6 * (1 - t2 / 20 * (1 - t2 / 42)));
-    const double versine = t2 / 2 * (1 - t2 / 12 * (1 - t2 / 30 * (1 - t2 / 56)));
+    const double sine = t * (1 - t2 * (1.0 / 6) * (1 - t2 * (1.0 / 20) * (1 - t2 * (1.0 / 42))));
+    const double versine = t2 * 0.5 * (1 - t2 * (1.0 / 12) * (1 - t2 * (1.0 / 30) * (1 - t2 * (1.0 / 56))));
     const double cosine = 1 - versine;
     qx = cosine * x + sine * (a[1] * z - a[2] * y) + versine * along * a[0] + s * v[0];
     qy = cosine * y + sine * (a[2] * x - a[0] * z) + versine * along * a[1] + s * v[1];

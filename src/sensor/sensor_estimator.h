@@ -13,7 +13,7 @@ class SensorEstimator {
  public:
   explicit SensorEstimator(const GridOptions& options = {}) : options_(options) {}
 
-  // The first usable sweep gives the model, later ones refine it (same rows, same ticks).
+  // The first usable sweep gives the model; sweeps after it change nothing.
   void add(const PointCloud& cloud);
 
   // None: no sweep so far comes from a sensor whose rows and columns can be told.
