@@ -1,0 +1,255 @@
+#include "sensor/columns.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/parallel.h"
+
+namespace pointreel {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+
+// A column that fewer points use is none: they are sent apart, which is cheaper, unless all columns are thin.
+std::uint32_t least_support(std::size_t points, std::size_t places) {
+  return static_cast<std::uint32_t>(
+      std::min<std::size_t>(3, 1 + points / std::max<std::size_t>(1, 16 * places)));
+}
+
+std::size_t most_columns(std::size_t rows) {
+  return std::min(kMaxColumns, kMaxCells / std::max<std::size_t>(rows, 1));
+}
+
+// Points between the columns go to a neighbour that is near enough: close to the sensor, where the file's
+// rounding turns them by more than half a tick.
+void take_in_neighbours(const PolarPoints& polar, const std::vector<std::int16_t>& rows,
+                        const std::vector<double>& azimuth_rad, double near_m, SweepColumns& columns) {
+  if (columns.tick.empty()) return;
+  const double ticks_per_rad = columns.ticks_per_turn / kTurn;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i] < 0 || columns.column_of_point[i] >= 0) continue;
+    const double tick = azimuth_rad[i] * ticks_per_rad;
+    const auto above = std::lower_bound(columns.tick.begin(), columns.tick.end(), tick,
+                                        [](std::uint32_t a, double b) { return a < b; });
+    const auto next = static_cast<std::size_t>(above - columns.tick.begin());
+    double nearest_m = near_m;
+    for (const std::size_t c :
+         {next == columns.tick.size() ? 0 : next, next == 0 ? columns.tick.size() - 1 : next - 1}) {
+      const double away_m = std::fabs(std::remainder((tick - columns.tick[c]) / ticks_per_rad, kTurn)) *
+                            static_cast<double>(polar.rho_m[i]);
+      if (away_m >= nearest_m) continue;
+      nearest_m = away_m;
+      columns.column_of_point[i] = static_cast<std::int32_t>(c);
+    }
+  }
+}
+
+SweepColumns columns_on_lattice(const SensorModel& model, const std::vector<std::int16_t>& rows,
+                                const std::vector<double>& azimuth_rad, bool unwrapped) {
+  const std::uint32_t turn = model.ticks_per_turn;
+  const std::uint32_t end = unwrapped ? 2 * turn : turn;
+  const double ticks_per_rad = turn / kTurn;
+  SweepColumns columns{turn, {}, std::vector<std::int32_t>(rows.size(), -1)};
+  std::vector<std::uint32_t> support(end, 0);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i] < 0) continue;
+    auto tick = static_cast<std::uint32_t>(std::max(0.0, azimuth_rad[i]) * ticks_per_rad + 0.5);
+    if (tick >= end) tick -= turn;
+    columns.column_of_point[i] = static_cast<std::int32_t>(tick);
+    ++support[tick];
+  }
+  std::size_t points = 0;
+  std::size_t used = 0;
+  for (const std::uint32_t count : support) {
+    points += count;
+    used += count > 0 ? 1 : 0;
+  }
+  const std::uint32_t least = least_support(points, used);
+  std::vector<std::int32_t> column_of_tick(end, -1);
+  for (std::uint32_t tick = 0; tick < end; ++tick) {
+    if (support[tick] < least || columns.tick.size() >= most_columns(model.rows.size())) continue;
+    if (columns.tick.empty() && tick >= turn) continue;
+    column_of_tick[tick] = static_cast<std::int32_t>(columns.tick.size());
+    columns.tick.push_back(tick);
+  }
+  for (std::int32_t& column : columns.column_of_point) {
+    if (column >= 0) column = column_of_tick[static_cast<std::size_t>(column)];
+  }
+  return columns;
+}
+
+// How finely the columns' azimuths are sent: half a step may cost a tenth of the bound at twice the mean
+// range.
+std::uint32_t free_ticks_per_turn(const PolarPoints& polar, double max_error_m) {
+  double sum = 0;
+  for (const float rho : polar.rho_m) sum += static_cast<double>(rho);
+  const double far_m =
+      std::clamp(2 * sum / static_cast<double>(std::max<std::size_t>(1, polar.size())), 1.0, 200.0);
+  std::uint32_t ticks = 1u << 13;
+  while (ticks < kMaxTicksPerTurn && kTurn / ticks * far_m > max_error_m / 5) ticks *= 2;
+  return ticks;
+}
+
+// Half the usual distance of two neighbours in a row, estimated from the fullest row.
+double column_step_rad(const std::vector<std::int16_t>& rows, const std::vector<double>& azimuth_rad,
+                       std::size_t row_count) {
+  std::vector<std::size_t> points(row_count, 0);
+  for (const std::int16_t row : rows) {
+    if (row >= 0) ++points[static_cast<std::size_t>(row)];
+  }
+  const auto fullest = std::max_element(points.begin(), points.end());
+  if (fullest == points.end() || *fullest < 3) return 0;
+  const auto row = static_cast<std::int16_t>(fullest - points.begin());
+  std::vector<double> sorted;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i] == row) sorted.push_back(azimuth_rad[i]);
+  }
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < sorted.size(); ++k) {
+    if (sorted[k] - sorted[k - 1] > 1e-5) steps.push_back(sorted[k] - sorted[k - 1]);
+  }
+  if (steps.empty()) return 0;
+  std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
+  return steps[steps.size() / 2];
+}
+
+// Columns on no lattice: clusters of the azimuths of all rows.
+SweepColumns free_columns(const SensorModel& model, const PolarPoints& polar,
+                          const std::vector<std::int16_t>& rows, const std::vector<double>& azimuth_rad,
+                          bool unwrapped, double max_error_m) {
+  constexpr double kBinsPerStep = 12;
+  constexpr std::size_t kMostBins = std::size_t{1} << 21;
+  SweepColumns columns{
+      free_ticks_per_turn(polar, max_error_m), {}, std::vector<std::int32_t>(rows.size(), -1)};
+  const double step = column_step_rad(rows, azimuth_rad, model.rows.size());
+  if (step <= 0) return columns;
+  const double span = unwrapped ? 2 * kTurn : kTurn;
+  const auto bins = static_cast<std::size_t>(
+      std::min(static_cast<double>(kMostBins), std::ceil(span / step * kBinsPerStep)));
+  struct Bin {
+    std::uint32_t points = 0;
+    double weight = 0, sum = 0;
+  };
+  std::vector<Bin> histogram(bins);
+  std::vector<std::uint32_t> bin_of_point(rows.size(), 0);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i] < 0) continue;
+    const auto b = std::min(
+        bins - 1, static_cast<std::size_t>(std::max(0.0, azimuth_rad[i]) / span * static_cast<double>(bins)));
+    const double weight = std::min(static_cast<double>(polar.rho_m[i]), 20.0);
+    bin_of_point[i] = static_cast<std::uint32_t>(b);
+    ++histogram[b].points;
+    histogram[b].weight += weight;
+    histogram[b].sum +=
+        weight * (azimuth_rad[i] - (static_cast<double>(b) + 0.5) * span / static_cast<double>(bins));
+  }
+  // Starts where there is nothing, so that no cluster is cut at the end of the turn.
+  std::size_t start = 0;
+  while (start < bins && histogram[start].points != 0) ++start;
+  if (start == bins) start = 0;
+  struct Cluster {
+    double azimuth;
+    std::size_t first, count;  // bins, from `first` cyclically
+  };
+  std::vector<Cluster> clusters;
+  const auto points = static_cast<std::size_t>(
+      std::count_if(rows.begin(), rows.end(), [](std::int16_t row) { return row >= 0; }));
+  const std::uint32_t least = least_support(points, static_cast<std::size_t>(kTurn / step));
+  const auto close = [&](std::size_t first, std::size_t last) {  // offsets from start
+    // Longer than a step: cut at the emptiest bins.
+    std::size_t from = first;
+    while (from < last) {
+      std::size_t to = last;
+      if (static_cast<double>(last - from) > 1.5 * kBinsPerStep) {
+        to = from + static_cast<std::size_t>(kBinsPerStep / 2);
+        for (std::size_t b = to; b < std::min(last, from + static_cast<std::size_t>(1.5 * kBinsPerStep));
+             ++b) {
+          if (histogram[(start + b) % bins].points < histogram[(start + to) % bins].points) to = b;
+        }
+      }
+      std::uint32_t support = 0;
+      double weight = 0;
+      double sum = 0;
+      for (std::size_t b = from; b < to; ++b) {
+        const Bin& bin = histogram[(start + b) % bins];
+        support += bin.points;
+        weight += bin.weight;
+        sum +=
+            bin.sum + bin.weight * (static_cast<double>(start + b) + 0.5) * span / static_cast<double>(bins);
+      }
+      if (support >= least && weight > 0) {
+        double azimuth = sum / weight;
+        if (azimuth >= span) azimuth -= span;
+        clusters.push_back({azimuth, (start + from) % bins, to - from});
+      }
+      from = to;
+    }
+  };
+  std::size_t first = 0;
+  std::size_t empty = 2;
+  for (std::size_t b = 0; b < bins; ++b) {
+    if (histogram[(start + b) % bins].points == 0) {
+      if (++empty == 2) close(first, b - 1);
+      continue;
+    }
+    if (empty >= 2) first = b;
+    empty = 0;
+  }
+  if (empty < 2) close(first, bins);
+  std::sort(clusters.begin(), clusters.end(),
+            [](const Cluster& a, const Cluster& b) { return a.azimuth < b.azimuth; });
+  std::vector<std::int32_t> column_of_bin(bins, -1);
+  const std::uint32_t end = (unwrapped ? 2 : 1) * columns.ticks_per_turn;
+  for (const Cluster& cluster : clusters) {
+    auto tick =
+        static_cast<std::uint32_t>(std::max(0.0, cluster.azimuth) / kTurn * columns.ticks_per_turn + 0.5);
+    if (tick >= end) tick = end - 1;
+    if (columns.tick.empty() ? tick >= columns.ticks_per_turn : false) continue;
+    if (columns.tick.empty() || tick > columns.tick.back()) {
+      if (columns.tick.size() >= most_columns(model.rows.size())) break;
+      columns.tick.push_back(tick);
+    }
+    for (std::size_t b = 0; b < cluster.count; ++b)
+      column_of_bin[(cluster.first + b) % bins] = static_cast<std::int32_t>(columns.tick.size()) - 1;
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i] >= 0) columns.column_of_point[i] = column_of_bin[bin_of_point[i]];
+  }
+  return columns;
+}
+
+}  // namespace
+
+std::vector<double> column_azimuths(const SensorModel& model, const PolarPoints& polar,
+                                    const std::vector<std::int16_t>& rows, int threads) {
+  std::vector<double> azimuths(polar.size());
+  parallel_for((polar.size() + kPiecePoints - 1) / kPiecePoints, threads, [&](std::size_t piece) {
+    const std::size_t last = std::min(polar.size(), (piece + 1) * kPiecePoints);
+    for (std::size_t i = piece * kPiecePoints; i < last; ++i) {
+      if (rows[i] < 0) continue;
+      const RowModel& row = model.rows[static_cast<std::size_t>(rows[i])];
+      const double t = row.side_offset_m / static_cast<double>(polar.rho_m[i]);
+      const double turned = std::fabs(t) < 0.05 ? t - t * t * t / 3 : std::atan(t);
+      double azimuth = static_cast<double>(polar.azimuth_rad[i]) - row.azimuth_rad - turned;
+      while (azimuth < 0) azimuth += kTurn;
+      while (azimuth >= kTurn) azimuth -= kTurn;
+      azimuths[i] = azimuth;
+    }
+  });
+  return azimuths;
+}
+
+SweepColumns find_columns(const SensorModel& model, const PolarPoints& polar,
+                          const std::vector<std::int16_t>& rows, const std::vector<double>& azimuth_rad,
+                          bool unwrapped, const GridOptions& options) {
+  SweepColumns columns = model.ticks_per_turn > 0
+                             ? columns_on_lattice(model, rows, azimuth_rad, unwrapped)
+                             : free_columns(model, polar, rows, azimuth_rad, unwrapped, options.max_error_m);
+  take_in_neighbours(polar, rows, azimuth_rad, std::min(options.max_deviation_m, options.max_error_m / 4),
+                     columns);
+  return columns;
+}
+
+}  // namespace pointreel

@@ -1,0 +1,157 @@
+#include "sensor/firing_order.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace pointreel {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kSmallStepRad = 0.35;  // rows look up to 20 deg apart
+constexpr double kHairRad = 1e-3;
+
+}  // namespace
+
+std::optional<FiringOrder> find_firing_order(const std::vector<double>& azimuth_rad,
+                                             const std::vector<std::int16_t>& rows) {
+  FiringOrder order;
+  order.azimuth_rad.assign(azimuth_rad.size(), 0);
+  std::size_t steps = 0;
+  std::size_t small = 0;
+  std::size_t same_row = 0;
+  double place = 0;  // follows the rotation, slowly enough not to be led astray by single points
+  double lowest = 0;
+  double highest = 0;
+  double first = 0;
+  double last = 0;
+  std::int16_t row_before = -1;
+  for (std::size_t i = 0; i < azimuth_rad.size(); ++i) {
+    if (rows[i] < 0) continue;
+    if (row_before < 0) place = lowest = highest = first = azimuth_rad[i];
+    const double step = std::remainder(azimuth_rad[i] - place, kTurn);
+    order.azimuth_rad[i] = place + step;
+    ++steps;
+    if (std::fabs(step) < kSmallStepRad) {
+      ++small;
+      lowest = std::min(lowest, order.azimuth_rad[i]);
+      highest = std::max(highest, order.azimuth_rad[i]);
+      last = order.azimuth_rad[i];
+    }
+    place += std::clamp(step, -kSmallStepRad, kSmallStepRad) / 4;
+    if (rows[i] == row_before) ++same_row;
+    row_before = rows[i];
+  }
+  if (steps < 32 || small * 20 < steps * 19 || same_row * 2 > steps) return {};
+  const double span = highest - lowest;
+  // A scan that stays within a part of the turn can be in this order, too, but only if it goes one way.
+  if (span >= 1.95 * kTurn || std::fabs(last - first) < 0.8 * span) return {};
+  order.descending = last < first;
+  // A first point a hair before azimuth 0 stays there.
+  const double origin = std::floor((lowest + kHairRad) / kTurn) * kTurn;
+  for (std::size_t i = 0; i < azimuth_rad.size(); ++i) {
+    if (rows[i] < 0) continue;
+    double& azimuth = order.azimuth_rad[i];
+    azimuth -= origin;
+    while (azimuth < -kHairRad) azimuth += kTurn;
+    while (azimuth >= 2 * kTurn) azimuth -= kTurn;
+  }
+  return order;
+}
+
+std::vector<double> row_leads_rad(const std::vector<double>& azimuth_rad,
+                                  const std::vector<std::int16_t>& rows, std::size_t row_count) {
+  // Median step to each row from the row most often before it.
+  struct Step {
+    std::int16_t from;
+    double turn;
+  };
+  std::vector<std::vector<Step>> steps(row_count);
+  std::size_t before = rows.size();
+  double advance = 0;
+  std::size_t pairs = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i] < 0) continue;
+    if (before < rows.size()) {
+      const double turn = std::remainder(azimuth_rad[i] - azimuth_rad[before], kTurn);
+      steps[static_cast<std::size_t>(rows[i])].push_back({rows[before], turn});
+      if (std::fabs(turn) < kSmallStepRad) advance += turn;
+      ++pairs;
+    }
+    before = i;
+  }
+  struct Link {
+    std::int16_t from = -1;
+    double turn = 0;
+  };
+  std::vector<Link> links(row_count);
+  for (std::size_t r = 0; r < row_count; ++r) {
+    std::vector<std::size_t> uses(row_count, 0);
+    for (const Step& step : steps[r]) ++uses[static_cast<std::size_t>(step.from)];
+    const auto most = std::max_element(uses.begin(), uses.end());
+    if (most == uses.end() || *most == 0) continue;
+    links[r].from = static_cast<std::int16_t>(most - uses.begin());
+    std::vector<double> turns;
+    for (const Step& step : steps[r]) {
+      if (step.from == links[r].from) turns.push_back(step.turn);
+    }
+    std::nth_element(turns.begin(), turns.begin() + static_cast<std::ptrdiff_t>(turns.size() / 2),
+                     turns.end());
+    links[r].turn = turns[turns.size() / 2];
+  }
+  // The chain of links is a cycle: it is cut where the azimuth goes ahead most, from one column to the next.
+  const double direction = advance < 0 ? -1 : 1;
+  std::size_t start = 0;
+  for (std::size_t r = 0; r < row_count; ++r) {
+    if (links[r].from < 0 || links[r].turn * direction > links[start].turn * direction) start = r;
+  }
+  std::vector<double> leads(row_count, 0);
+  std::vector<std::uint8_t> known(row_count, 0);
+  known[start] = 1;
+  for (std::size_t round = 0; round < row_count; ++round) {
+    bool any = false;
+    for (std::size_t r = 0; r < row_count; ++r) {
+      if (known[r] != 0 || links[r].from < 0 || known[static_cast<std::size_t>(links[r].from)] == 0) continue;
+      leads[r] = leads[static_cast<std::size_t>(links[r].from)] + links[r].turn;
+      known[r] = 1;
+      any = true;
+    }
+    if (!any) break;
+  }
+  const double mean = std::accumulate(leads.begin(), leads.end(), 0.0) / static_cast<double>(row_count);
+  for (double& lead : leads) lead -= mean;
+  return leads;
+}
+
+std::vector<std::uint16_t> row_sequence_of(const std::vector<std::int16_t>& rows,
+                                           const std::vector<std::int32_t>& column_of_point,
+                                           std::size_t row_count) {
+  // Mean rank within the columns, which is off by what is missing before a row: full columns count for more.
+  std::vector<std::vector<std::int16_t>> columns;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i] < 0 || column_of_point[i] < 0) continue;
+    const auto column = static_cast<std::size_t>(column_of_point[i]);
+    if (column >= columns.size()) columns.resize(column + 1);
+    columns[column].push_back(rows[i]);
+  }
+  std::vector<double> rank(row_count, 0);
+  std::vector<double> weight(row_count, 0);
+  for (const auto& column : columns) {
+    const double full = static_cast<double>(column.size()) / static_cast<double>(row_count);
+    const double w = std::pow(full, 8) + 1e-12;
+    for (std::size_t k = 0; k < column.size(); ++k) {
+      const auto r = static_cast<std::size_t>(column[k]);
+      rank[r] += w * (static_cast<double>(k) + 0.5) / static_cast<double>(column.size());
+      weight[r] += w;
+    }
+  }
+  for (std::size_t r = 0; r < row_count; ++r) rank[r] = weight[r] > 0 ? rank[r] / weight[r] : 0;
+  std::vector<std::uint16_t> sequence(row_count);
+  std::iota(sequence.begin(), sequence.end(), std::uint16_t{0});
+  std::stable_sort(sequence.begin(), sequence.end(),
+                   [&](std::uint16_t a, std::uint16_t b) { return rank[a] < rank[b]; });
+  return sequence;
+}
+
+}  // namespace pointreel

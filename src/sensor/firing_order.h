@@ -1,0 +1,30 @@
+// Firing order: clouds whose points come as they were measured, column by column.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace pointreel {
+
+struct FiringOrder {
+  bool descending = false;          // the azimuth falls with time
+  std::vector<double> azimuth_rad;  // per point, unwrapped: from 0, or a hair less, to 4 pi
+};
+
+// From azimuths in [0, 2 pi) in the order of the points; rows[i] < 0: no such point. None when the points do
+// not go around once, or up to nearly twice, in small steps that change the row.
+std::optional<FiringOrder> find_firing_order(const std::vector<double>& azimuth_rad,
+                                             const std::vector<std::int16_t>& rows);
+
+// How far each row's azimuth is ahead of the mean at the same firing, from the steps between successive
+// points.
+std::vector<double> row_leads_rad(const std::vector<double>& azimuth_rad,
+                                  const std::vector<std::int16_t>& rows, std::size_t row_count);
+
+// Rows in the order in which the points of a column come; column_of_point < 0: none.
+std::vector<std::uint16_t> row_sequence_of(const std::vector<std::int16_t>& rows,
+                                           const std::vector<std::int32_t>& column_of_point,
+                                           std::size_t row_count);
+
+}  // namespace pointreel

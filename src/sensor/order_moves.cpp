@@ -1,0 +1,122 @@
+#include "sensor/order_moves.h"
+
+#include <algorithm>
+
+#include "entropy/adaptive_models.h"
+
+namespace pointreel {
+namespace {
+
+struct MoveModels {
+  AdaptiveInteger count, gap, distance;
+};
+
+template <class Coder>
+OrderMove code_move(Coder& coder, MoveModels& models, std::int64_t last_from, const OrderMove& move) {
+  const auto gap = models.gap.code(coder, static_cast<std::int32_t>(move.from - last_from - 1));
+  const std::int64_t from = last_from + 1 + gap;
+  const auto distance = models.distance.code(
+      coder,
+      static_cast<std::int32_t>(static_cast<std::int64_t>(move.to) - static_cast<std::int64_t>(move.from)));
+  return {static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(from + distance)};
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> order_breakers(std::span<const std::uint32_t> keys) {
+  const auto count = static_cast<std::uint32_t>(keys.size());
+  std::vector<std::uint32_t> tails;  // last element of the best subsequence of each length
+  std::vector<std::uint32_t> before(keys.size(), count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    auto place = tails.end();
+    if (!tails.empty() && keys[tails.back()] >= keys[i]) {
+      place = std::lower_bound(tails.begin(), tails.end(), keys[i],
+                               [&](std::uint32_t tail, std::uint32_t key) { return keys[tail] < key; });
+    }
+    if (place != tails.begin()) before[i] = *(place - 1);
+    if (place == tails.end()) {
+      tails.push_back(i);
+    } else {
+      *place = i;
+    }
+  }
+  std::vector<std::uint32_t> breakers;
+  std::uint32_t kept = tails.empty() ? count : tails.back();
+  for (std::uint32_t i = count; i-- > 0;) {
+    if (i == kept) {
+      kept = before[i];
+    } else {
+      breakers.push_back(i);
+    }
+  }
+  std::reverse(breakers.begin(), breakers.end());
+  return breakers;
+}
+
+std::vector<OrderMove> find_moves(std::span<const std::uint32_t> expected,
+                                  std::span<const std::uint32_t> actual, std::size_t cells) {
+  std::vector<std::uint32_t> place(cells, 0);
+  for (std::size_t i = 0; i < expected.size(); ++i) place[expected[i]] = static_cast<std::uint32_t>(i);
+  std::vector<std::uint32_t> keys(actual.size());
+  for (std::size_t i = 0; i < actual.size(); ++i) keys[i] = place[actual[i]];
+  std::vector<OrderMove> moves;
+  for (const std::uint32_t i : order_breakers(keys)) moves.push_back({keys[i], i});
+  std::sort(moves.begin(), moves.end(),
+            [](const OrderMove& a, const OrderMove& b) { return a.from < b.from; });
+  return moves;
+}
+
+std::vector<std::uint32_t> apply_moves(std::span<const std::uint32_t> expected,
+                                       std::span<const OrderMove> moves) {
+  std::vector<std::uint32_t> actual(expected.begin(), expected.end());
+  if (moves.empty()) return actual;
+  std::vector<std::uint8_t> left(expected.size(), 0);
+  std::vector<std::uint8_t> taken(expected.size(), 0);
+  for (const OrderMove& move : moves) {
+    left[move.from] = 1;
+    taken[move.to] = 1;
+    actual[move.to] = expected[move.from];
+  }
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    if (left[i] != 0) continue;
+    while (taken[next] != 0) ++next;
+    actual[next++] = expected[i];
+  }
+  return actual;
+}
+
+std::vector<std::uint8_t> encode_moves(std::span<const OrderMove> moves) {
+  if (moves.empty()) return {};
+  BitEncoder coder;
+  MoveModels models;
+  models.count.code(coder, static_cast<std::int32_t>(moves.size()));
+  std::int64_t last = -1;
+  for (const OrderMove& move : moves) last = code_move(coder, models, last, move).from;
+  return coder.finish();
+}
+
+Result<std::vector<OrderMove>> decode_moves(std::size_t list_size, std::span<const std::uint8_t> bytes) {
+  std::vector<OrderMove> moves;
+  if (bytes.empty()) return moves;
+  BitDecoder coder(bytes);
+  MoveModels models;
+  const std::int32_t count = models.count.code(coder, 0);
+  if (count < 0 || static_cast<std::size_t>(count) > list_size)
+    return Error{ErrorCode::corrupt, "more points are moved than there are"};
+  std::vector<std::uint8_t> taken(list_size, 0);
+  std::int64_t last = -1;
+  for (std::int32_t i = 0; i < count; ++i) {
+    const OrderMove move = code_move(coder, models, last, {});
+    if (coder.overran()) return Error{ErrorCode::truncated, "the moved points end early"};
+    if (static_cast<std::int64_t>(move.from) <= last || move.from >= list_size || move.to >= list_size ||
+        taken[move.to] != 0)
+      return Error{ErrorCode::corrupt, "a moved point has no place"};
+    taken[move.to] = 1;
+    last = move.from;
+    moves.push_back(move);
+  }
+  return moves;
+}
+
+}  // namespace pointreel

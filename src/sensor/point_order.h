@@ -1,0 +1,30 @@
+// The order of a sweep's points on its grid.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "sensor/sensor_model.h"
+#include "sensor/sweep_grid.h"
+
+namespace pointreel {
+
+// The occupied cells (row * column_count + column) in the order of the points, but for the moved ones
+// (order_moves.h). `occupied`: per cell, 0 or 1. `range_m`: per cell, as decoded; only row_azimuth looks at
+// it, and only where occupied. Order none: rows from top to bottom. Deterministic.
+std::vector<std::uint32_t> cells_in_order(std::span<const std::uint8_t> occupied,
+                                          std::span<const float> range_m, const SensorModel& model,
+                                          const SweepGrid& grid);
+
+// The cells of the points in the order of the cloud: what find_moves() compares with cells_in_order().
+std::vector<std::uint32_t> cells_of_points(const GriddedSweep& sweep);
+
+// The order that leaves the fewest points to be moved; none when those are more than a fiftieth. A sweep
+// whose columns were unwrapped along its points' sequence says so by `firing_descending`, and is
+// column-major.
+PointOrder find_order(const SensorModel& model, const GriddedSweep& sweep,
+                      std::optional<bool> firing_descending);
+
+}  // namespace pointreel

@@ -1,0 +1,31 @@
+// Points of a sweep in cylinder coordinates around the sensor's axis, as measured (before compensation).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "pointreel/point_cloud.h"
+#include "sensor/sweep_grid.h"
+
+namespace pointreel {
+
+// Structure of arrays; azimuths to 5e-7 rad. Points without a ray have rho 0.
+struct PolarPoints {
+  std::vector<float> rho_m, azimuth_rad, z_m;  // azimuth in [-pi, pi]
+  std::size_t size() const { return rho_m.size(); }
+  bool has_ray(std::size_t i) const { return rho_m[i] > 0; }
+};
+
+inline constexpr float kLeastRhoM = 1e-3F;  // nearer to the axis there is no direction to speak of
+inline constexpr float kMostRhoM = 1e5F;    // farther away float32 has no centimetres
+
+// q = R(s w) p + s v, with s from the azimuth of q itself.
+Point3f as_measured(const Point3f& p, const Twist& twist);
+
+PolarPoints polar_points(const PointCloud& cloud, const std::optional<Twist>& motion, int threads);
+
+inline constexpr std::size_t kPiecePoints = 8192;
+
+}  // namespace pointreel

@@ -1,0 +1,50 @@
+// RayTable: cells back to points. The decoder's half of the sensor model; the same bits on every machine.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "pointreel/point_cloud.h"
+#include "sensor/sensor_model.h"
+#include "sensor/sweep_grid.h"
+
+namespace pointreel {
+
+class RayTable {
+ public:
+  RayTable(const SensorModel& model, const SweepGrid& grid);
+
+  std::size_t row_count() const { return rows_.size(); }
+  std::size_t column_count() const { return columns_.size(); }
+
+  // The decoded point; for compensated sweeps in the coordinates of the file. Any finite range will do.
+  Point3f position(std::size_t row, std::size_t column, float range_m) const;
+  // As measured, before compensation: what neighbouring cells have in common.
+  Point3f measured_position(std::size_t row, std::size_t column, float range_m) const;
+
+ private:
+  struct Row {
+    double cos_elevation, slope, offset_m, side_offset_m, sin_azimuth, cos_azimuth, azimuth_rad;
+  };
+  struct Column {
+    double sin, cos, azimuth_rad;
+  };
+  struct Vector {
+    double x, y, z;
+  };
+  Vector measured(const Row& row, const Column& column, double range_m) const;
+
+  std::vector<Row> rows_;
+  std::vector<Column> columns_;
+  bool compensated_ = false;
+  Vector v_{}, axis_{};  // of the twist; axis of unit length, turning by s * angle_rad_
+  double angle_rad_ = 0;
+};
+
+// Whole columns by which each row is turned: row r looks from column c into the direction in which a row with
+// alpha 0 looks from column c + shift. alpha over the mean column step; 0 with fewer than two columns.
+std::vector<std::int32_t> column_shift_of_row(const SensorModel& model, const SweepGrid& grid);
+
+}  // namespace pointreel

@@ -1,0 +1,214 @@
+#include "sensor/row_assignment.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+#include <unordered_map>
+
+#include "base/parallel.h"
+#include "sensor/row_runs.h"
+
+namespace pointreel {
+namespace {
+
+// Rows from the lowest to the highest, for a binary search by z at a given rho.
+class NearestRow {
+ public:
+  explicit NearestRow(const SensorModel& model) : model_(model) {}
+
+  // Rows cross near the sensor, where their offsets differ: a few around the found one are compared.
+  std::int16_t operator()(double rho_m, double z_m) const {
+    const auto count = static_cast<int>(model_.rows.size());
+    int above = 0;  // the first row that the point is not below
+    for (int step = count; step > 0;) {
+      const int half = step / 2;
+      const int middle = above + half;
+      if (height_above_row_m(model_.rows[static_cast<std::size_t>(middle)], rho_m, z_m) < 0) {
+        above = middle + 1;
+        step -= half + 1;
+      } else {
+        step = half;
+      }
+    }
+    int best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (int row = std::max(0, above - kReach); row < std::min(count, above + kReach); ++row) {
+      const RowModel& candidate = model_.rows[static_cast<std::size_t>(row)];
+      const double distance = std::fabs(height_above_row_m(candidate, rho_m, z_m));
+      if (distance < least) {
+        least = distance;
+        best = row;
+      }
+    }
+    return static_cast<std::int16_t>(best);
+  }
+
+ private:
+  static constexpr int kReach = 3;
+  const SensorModel& model_;
+};
+
+std::vector<std::int16_t> rows_by_ring(const SensorModel& model, const std::vector<std::int32_t>& rings,
+                                       const PolarPoints& polar) {
+  std::unordered_map<std::int32_t, std::int16_t> row_of_ring;
+  for (std::size_t row = 0; row < model.ring_of_row.size(); ++row)
+    row_of_ring.emplace(model.ring_of_row[row], static_cast<std::int16_t>(row));
+  std::vector<std::int16_t> rows(polar.size(), kNoRow);
+  std::int32_t last_ring = 0;
+  std::int16_t last_row = kNoRow;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!polar.has_ray(i)) continue;
+    if (rings[i] != last_ring || last_row == kNoRow) {
+      const auto found = row_of_ring.find(rings[i]);
+      last_row = found == row_of_ring.end() ? kNoRow : found->second;
+      last_ring = rings[i];
+    }
+    rows[i] = last_row;
+  }
+  return rows;
+}
+
+// The row of a run: the one that its points lie neither above nor below, in the median (compensated sweeps
+// are bent both ways, so medians still tell).
+std::int16_t row_of_run(const SensorModel& model, const PolarPoints& polar, std::size_t first,
+                        std::size_t last, std::size_t least_row, std::size_t end_row, double& misfit) {
+  constexpr std::size_t kSamples = 48;
+  std::array<std::size_t, kSamples> samples{};
+  std::size_t count = 0;
+  for (std::size_t s = 0; s < kSamples; ++s) {
+    const std::size_t i = first + (last - first) * s / kSamples;
+    if (polar.has_ray(i)) samples[count++] = i;
+  }
+  std::int16_t best = kNoRow;
+  misfit = std::numeric_limits<double>::infinity();
+  if (count == 0) return best;
+  std::array<float, kSamples> elevations{};
+  for (std::size_t row = least_row; row < end_row; ++row) {
+    for (std::size_t s = 0; s < count; ++s) {
+      const std::size_t i = samples[s];
+      elevations[s] = static_cast<float>(height_above_row_m(model.rows[row], polar.rho_m[i], polar.z_m[i]) /
+                                         polar.rho_m[i]);
+    }
+    const auto middle = elevations.begin() + static_cast<std::ptrdiff_t>(count / 2);
+    std::nth_element(elevations.begin(), middle, elevations.begin() + static_cast<std::ptrdiff_t>(count));
+    const double distance = std::fabs(static_cast<double>(*middle));
+    if (distance < misfit) {
+      misfit = distance;
+      best = static_cast<std::int16_t>(row);
+    }
+  }
+  return best;
+}
+
+// Half the median gap between rows: runs that miss every row by more are no rows.
+double run_tolerance(const SensorModel& model) {
+  std::vector<double> gaps;
+  for (std::size_t row = 1; row < model.rows.size(); ++row)
+    gaps.push_back(std::fabs(model.rows[row - 1].slope - model.rows[row].slope));
+  if (gaps.empty()) return 0.1;
+  std::nth_element(gaps.begin(), gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2), gaps.end());
+  return gaps[gaps.size() / 2] / 2;
+}
+
+// Runs may be missing, cut in two or made of a few points that jitter around the seam: each finds its own
+// row, short ones point by point. Empty when the cloud is not made of runs.
+std::vector<std::int16_t> rows_by_runs(const SensorModel& model, const PolarPoints& polar,
+                                       const NearestRow& nearest) {
+  constexpr std::size_t kShortRun = 24;
+  const RowRuns runs = split_into_runs(polar);
+  if (runs.runs() > 4 * model.rows.size() + 16) return {};
+  if (runs.runs() * 4 < model.rows.size()) return {};  // whole turns of all rows: column by column
+  const double tolerance = run_tolerance(model);
+  std::vector<std::int16_t> rows(polar.size(), kNoRow);
+  constexpr std::size_t kAhead = 5;
+  const std::size_t count = model.rows.size();
+  std::size_t fitting = 0;
+  std::size_t row_before = 0;
+  for (std::size_t run = 0; run < runs.runs(); ++run) {
+    const std::size_t first = runs.first[run];
+    const std::size_t last = runs.end(run, polar.size());
+    double misfit = 0;
+    std::int16_t row = kNoRow;
+    if (last - first > kShortRun) {
+      // Most often one of the next rows.
+      const std::size_t near_end = std::min(count, row_before + kAhead);
+      row =
+          row_of_run(model, polar, first, last, row_before - std::min(row_before, kAhead), near_end, misfit);
+      if (misfit >= tolerance) row = row_of_run(model, polar, first, last, 0, count, misfit);
+    }
+    const bool fits = row != kNoRow && misfit < tolerance;
+    if (fits) row_before = static_cast<std::size_t>(row);
+    if (fits) fitting += last - first;
+    for (std::size_t i = first; i < last; ++i) {
+      if (polar.has_ray(i)) rows[i] = fits ? row : nearest(polar.rho_m[i], polar.z_m[i]);
+    }
+  }
+  if (fitting * 2 < polar.size()) return {};
+  return rows;
+}
+
+}  // namespace
+
+const Field* find_ring_field(const PointCloud& cloud) {
+  for (const char* name : {"ring", "Ring", "channel", "Channel", "laser_id", "laser", "laser_number", "line",
+                           "row", "beam", "scan_line", "ring_id", "ring_index"}) {
+    if (const Field* field = cloud.find_field(name)) return field;
+  }
+  return nullptr;
+}
+
+std::vector<std::int32_t> ring_values(const PointCloud& cloud) {
+  const Field* field = find_ring_field(cloud);
+  if (field == nullptr || field->size() != cloud.size()) return {};
+  std::vector<std::int32_t> rings(cloud.size());
+  const auto convert = [&](const auto& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const auto value = static_cast<double>(values[i]);
+      if (!(std::fabs(value) < 1e9) || value != std::floor(value)) return false;
+      rings[i] = static_cast<std::int32_t>(value);
+    }
+    return true;
+  };
+  if (!std::visit(convert, field->values)) return {};
+  return rings;
+}
+
+std::vector<std::int16_t> assign_rows(const SensorModel& model, const PointCloud& cloud,
+                                      const PolarPoints& polar, int threads) {
+  if (model.rows.empty()) return std::vector<std::int16_t>(polar.size(), kNoRow);
+  if (!model.ring_of_row.empty()) {
+    const auto rings = ring_values(cloud);
+    if (!rings.empty()) return rows_by_ring(model, rings, polar);
+  }
+  auto rows = rows_by_runs(model, polar, NearestRow(model));
+  if (!rows.empty() || polar.size() == 0) return rows;
+  return nearest_rows(model, polar, threads);
+}
+
+std::vector<std::int16_t> nearest_rows(const SensorModel& model, const PolarPoints& polar, int threads) {
+  const NearestRow nearest(model);
+  std::vector<std::int16_t> rows(polar.size(), kNoRow);
+  parallel_for((polar.size() + kPiecePoints - 1) / kPiecePoints, threads, [&](std::size_t piece) {
+    const std::size_t last = std::min(polar.size(), (piece + 1) * kPiecePoints);
+    for (std::size_t i = piece * kPiecePoints; i < last; ++i) {
+      if (polar.has_ray(i)) rows[i] = nearest(polar.rho_m[i], polar.z_m[i]);
+    }
+  });
+  return rows;
+}
+
+void settle_rows(const SensorModel& model, const PolarPoints& polar, std::vector<std::int16_t>& rows) {
+  constexpr double kFarM = 0.02;
+  if (!model.ring_of_row.empty() || model.rows.empty()) return;
+  const NearestRow nearest(model);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i] < 0 || !polar.has_ray(i)) continue;
+    const RowModel& row = model.rows[static_cast<std::size_t>(rows[i])];
+    if (std::fabs(height_above_row_m(row, polar.rho_m[i], polar.z_m[i])) > kFarM)
+      rows[i] = nearest(polar.rho_m[i], polar.z_m[i]);
+  }
+}
+
+}  // namespace pointreel
