@@ -12,6 +12,8 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "pointreel/motion.h"
@@ -21,7 +23,8 @@
 namespace pointreel {
 
 enum class Method : std::uint8_t {
-  planes = 1,  // Feng, Liu, Zhu: Real-Time Spatio-Temporal LiDAR Point Cloud Compression, IROS 2020
+  planes = 1,   // Feng, Liu, Zhu: Real-Time Spatio-Temporal LiDAR Point Cloud Compression, IROS 2020
+  mixture = 2,  // every point within a bound: sensor-grid ranges coded by a mixture of predictors
 };
 
 // How the ranges of cells that lie on no plane are kept (the paper's residual map).
@@ -42,20 +45,47 @@ struct PlanesOptions {
   double residual_step_m = 0;  // 0: twice the threshold, so that unfit cells keep the same range error
 };
 
+// A field of the input, by name, and how far its decoded values may be off.
+struct FieldStep {
+  std::string name;
+  double step = 0;  // largest difference, in the field's own unit; 0: every value to the bit
+};
+
+// Which fields travel with the points.
+struct FieldSelection {
+  bool all_others = true;  // those not named: exactly, or not at all
+  std::vector<FieldStep> named;
+
+  const FieldStep* find(std::string_view name) const;  // nullptr when it is not named
+};
+
+// Method `mixture`. Every finite point comes back, within max_error_m of where it was; non-finite ones are
+// dropped and counted. Clouds of rotating sensors are coded on the sensor's own grid, which is found from the
+// sweeps; any other cloud by an octree.
+struct MixtureOptions {
+  double max_error_m = 0.02;  // distance in space of each point to its own decoded float32 position; 0.0005 to 1
+  int group = 10;             // sweeps per group, 1 to 255: the first holds the sensor model for the others
+  FieldSelection fields;
+};
+
 // What the caller of an Encoder chooses.
 struct EncoderOptions {
-  Method method = Method::planes;
+  Method method = Method::mixture;
+  MixtureOptions mixture;
   PlanesOptions planes;
 };
 
 // What a decoder must know before the first packet.
 struct StreamHeader {
-  Method method = Method::planes;
-  PlanesOptions planes;  // with residual_step_m resolved
+  Method method = Method::mixture;
+  double max_error_m = 0.02;  // `mixture` only
+  int group = 10;             // `mixture` only
+  PlanesOptions planes;       // `planes` only, with residual_step_m resolved
 
-  // Largest range error of a kept point: the threshold, or half the residual step if that is more. Decoded
-  // positions are float32; where their rounding matters (1 mm at 10 km) it comes on top.
-  double range_bound_m() const;
+  // `mixture`: largest distance of a point to its own decoded position. `planes`: largest range error of a
+  // kept point: the threshold, or half the residual step if that is more (decoded positions are float32; where
+  // their rounding matters, 1 mm at 10 km, it comes on top).
+  double bound_m() const;
 };
 
 // Settings that change no byte of any stream.
@@ -70,7 +100,19 @@ enum class FrameKind : std::uint8_t {
 
 // Where the bits of a packet and the cells of its range image went (encoder only, not in the stream).
 struct FrameStatistics {
-  double occupancy_bits = 0;
+  double occupancy_bits = 0;  // which cells hold a point: both methods
+  // `mixture`
+  double model_bits = 0;       // the sensor model
+  double grid_bits = 0;        // columns, kind of order, motion
+  double range_bits = 0;       // ranges of the points on the grid
+  double order_bits = 0;       // points that stand elsewhere than the grid says
+  double correction_bits = 0;  // of points too far from their ray
+  double stray_bits = 0;       // points off the grid
+  double scattered_bits = 0;   // the octree of a cloud without a grid
+  double field_bits = 0;
+  std::uint32_t corrected_points = 0;
+  std::uint32_t stray_points = 0;
+  // `planes`
   double plane_bits = 0;
   double residual_bits = 0;
   std::uint32_t spatial_cells = 0;   // on planes of this frame
@@ -110,9 +152,10 @@ class Encoder {
 
   const StreamHeader& header() const;
 
-  // Takes the next sweep and its pose in any fixed frame (omit it for all sweeps when motion is unknown:
-  // sweeps are then compared where they stand). Returns the packets that are now complete: for `planes` none
-  // until a group is, then all of its packets, key frame first.
+  // Takes the next sweep. Returns the packets that are now complete: for `mixture` this sweep's, for `planes`
+  // none until a group is, then all of its packets, key frame first. `planes` uses the sweep's pose in any
+  // fixed frame (omit it for all sweeps when motion is unknown: they are then compared where they stand).
+  // Error: resource_limit for a sweep of more than 2^23 points; the encoder then goes on without it.
   Result<std::vector<Packet>> encode(PointCloud sweep, const std::optional<Pose>& T_world_sensor = {});
   // Ends the stream: packets of the last, maybe shorter group.
   Result<std::vector<Packet>> finish();
@@ -127,7 +170,8 @@ class Encoder {
 struct DecodedSweep {
   std::uint32_t frame = 0;
   PointCloud cloud;                      // the sweep's own sensor coordinates
-  Pose T_key_sensor = Pose::Identity();  // the motion that was undone (predicted frames)
+  Pose T_key_sensor = Pose::Identity();  // `planes`: the motion that was undone (predicted frames)
+  bool order_kept = false;               // the points come in the order of the input
 };
 
 class Decoder {
@@ -151,7 +195,8 @@ class Decoder {
 };
 
 // Index into decoded.cloud of each original point's own decoded point; -1 for points that the method gave up
-// (another point of the cell was nearer, or not finite). `original` must be the sweep that was encoded.
+// (`planes`: another point of the cell was nearer; not finite). `original` must be the sweep that was encoded.
+// Where the order was not kept, points are matched one to one within the bound; those that cannot be get -1.
 Result<std::vector<std::int64_t>> pair_points(const StreamHeader& header, const PointCloud& original,
                                               const DecodedSweep& decoded);
 

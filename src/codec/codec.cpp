@@ -14,7 +14,8 @@ Encoder& Encoder::operator=(Encoder&&) noexcept = default;
 Encoder::~Encoder() = default;
 
 Result<Encoder> Encoder::create(const EncoderOptions& options, const Runtime& runtime) {
-  auto implementation = make_planes_encoder(options, runtime);
+  auto implementation = options.method == Method::planes ? make_planes_encoder(options, runtime)
+                                                         : make_mixture_encoder(options, runtime);
   if (!implementation) return implementation.error();
   return Encoder(*std::move(implementation));
 }
@@ -38,13 +39,27 @@ Decoder& Decoder::operator=(Decoder&&) noexcept = default;
 Decoder::~Decoder() = default;
 
 Result<Decoder> Decoder::create(const StreamHeader& header, const Runtime& runtime) {
-  auto implementation = make_planes_decoder(header, runtime);
+  auto implementation = header.method == Method::planes ? make_planes_decoder(header, runtime)
+                                                        : make_mixture_decoder(header, runtime);
   if (!implementation) return implementation.error();
   return Decoder(*std::move(implementation));
 }
 
 std::vector<Result<DecodedSweep>> Decoder::decode(std::span<const Packet> packets) {
   return implementation_->decode(packets);
+}
+
+Result<std::vector<std::int64_t>> pair_points(const StreamHeader& header, const PointCloud& original,
+                                              const DecodedSweep& decoded) {
+  return header.method == Method::planes ? pair_planes_points(header, original, decoded)
+                                         : pair_mixture_points(header, original, decoded);
+}
+
+const FieldStep* FieldSelection::find(std::string_view name) const {
+  for (const FieldStep& field : named) {
+    if (field.name == name) return &field;
+  }
+  return nullptr;
 }
 
 }  // namespace pointreel

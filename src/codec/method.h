@@ -24,10 +24,21 @@ class Decoder::Implementation {
   virtual std::vector<Result<DecodedSweep>> decode(std::span<const Packet> packets) = 0;
 };
 
+// codec/mixture_encoder.cpp, codec/mixture_decoder.cpp
+Result<std::unique_ptr<Encoder::Implementation>> make_mixture_encoder(const EncoderOptions& options,
+                                                                      const Runtime& runtime);
+Result<std::unique_ptr<Decoder::Implementation>> make_mixture_decoder(const StreamHeader& header,
+                                                                      const Runtime& runtime);
+Result<std::vector<std::int64_t>> pair_mixture_points(const StreamHeader& header, const PointCloud& original,
+                                                      const DecodedSweep& decoded);
+
 // codec/planes_encoder.cpp, codec/planes_decoder.cpp
 Result<std::unique_ptr<Encoder::Implementation>> make_planes_encoder(const EncoderOptions& options,
                                                                      const Runtime& runtime);
 Result<std::unique_ptr<Decoder::Implementation>> make_planes_decoder(const StreamHeader& header,
                                                                      const Runtime& runtime);
+
+Result<std::vector<std::int64_t>> pair_planes_points(const StreamHeader& header, const PointCloud& original,
+                                                     const DecodedSweep& decoded);
 
 }  // namespace pointreel

@@ -89,14 +89,22 @@ std::vector<std::uint8_t> serialize(const StreamHeader& header) {
   writer.put(std::span(kStreamMagic));
   writer.put(kFormatVersion);
   writer.put(header.method);
-  writer.put(static_cast<std::uint8_t>(header.planes.tile_size));
-  writer.put(static_cast<std::uint8_t>(header.planes.group));
-  writer.put(header.planes.residual_mode);
-  writer.put(std::uint16_t{0});
-  writer.put(header.planes.threshold_m);
-  writer.put(header.planes.azimuth_step_rad);
-  writer.put(header.planes.elevation_step_rad);
-  writer.put(header.planes.residual_step_m);
+  if (header.method == Method::mixture) {
+    writer.put(std::uint8_t{0});
+    writer.put(static_cast<std::uint8_t>(header.group));
+    while (writer.size() < kMaxErrorOffset) writer.put(std::uint8_t{0});
+    writer.put(header.max_error_m);
+    while (writer.size() < kStreamHeaderBytes - kChecksumBytes) writer.put(std::uint8_t{0});
+  } else {
+    writer.put(static_cast<std::uint8_t>(header.planes.tile_size));
+    writer.put(static_cast<std::uint8_t>(header.planes.group));
+    writer.put(header.planes.residual_mode);
+    writer.put(std::uint16_t{0});
+    writer.put(header.planes.threshold_m);
+    writer.put(header.planes.azimuth_step_rad);
+    writer.put(header.planes.elevation_step_rad);
+    writer.put(header.planes.residual_step_m);
+  }
   writer.put(checksum(writer.bytes()));
   return writer.take();
 }
@@ -115,14 +123,24 @@ Result<StreamHeader> parse_stream_header(std::span<const std::uint8_t> bytes) {
   }
   StreamHeader header;
   header.method = reader.get<Method>();
-  header.planes.tile_size = reader.get<std::uint8_t>();
-  header.planes.group = reader.get<std::uint8_t>();
-  header.planes.residual_mode = reader.get<ResidualMode>();
-  const auto reserved = reader.get<std::uint16_t>();
-  header.planes.threshold_m = reader.get<double>();
-  header.planes.azimuth_step_rad = reader.get<double>();
-  header.planes.elevation_step_rad = reader.get<double>();
-  header.planes.residual_step_m = reader.get<double>();
+  std::uint64_t reserved = 0;
+  if (header.method == Method::mixture) {
+    reserved |= reader.get<std::uint8_t>();
+    header.group = reader.get<std::uint8_t>();
+    reserved |= reader.get<std::uint8_t>();
+    reserved |= reader.get<std::uint16_t>();
+    header.max_error_m = reader.get<double>();
+    for (int i = 0; i < 3; ++i) reserved |= reader.get<std::uint64_t>();
+  } else {
+    header.planes.tile_size = reader.get<std::uint8_t>();
+    header.planes.group = reader.get<std::uint8_t>();
+    header.planes.residual_mode = reader.get<ResidualMode>();
+    reserved = reader.get<std::uint16_t>();
+    header.planes.threshold_m = reader.get<double>();
+    header.planes.azimuth_step_rad = reader.get<double>();
+    header.planes.elevation_step_rad = reader.get<double>();
+    header.planes.residual_step_m = reader.get<double>();
+  }
   const auto sum = reader.get<std::uint32_t>();
   if (!reader.ok()) return error_at(ErrorCode::truncated, bytes.size(), "stream ends within its header");
   if (bytes.size() != kStreamHeaderBytes)

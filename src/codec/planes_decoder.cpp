@@ -97,7 +97,7 @@ class PlanesDecoder final : public Decoder::Implementation {
                       {ErrorCode::corrupt, "it decodes to " + std::to_string(points) + " points instead of " +
                                                std::to_string(packet.points_out)});
     }
-    return DecodedSweep{packet.frame, cloud_of(grid_, image, T_key_sensor), T_key_sensor};
+    return DecodedSweep{packet.frame, cloud_of(grid_, image, T_key_sensor), T_key_sensor, false};
   }
 
   static Error in_frame(const Packet& packet, const Error& error) {
@@ -123,8 +123,8 @@ Result<std::unique_ptr<Decoder::Implementation>> make_planes_decoder(const Strea
 
 // The encoder's projection repeated: decoded points are the occupied cells in raster order, and a cell
 // belongs to the first of its nearest points.
-Result<std::vector<std::int64_t>> pair_points(const StreamHeader& header, const PointCloud& original,
-                                              const DecodedSweep& decoded) {
+Result<std::vector<std::int64_t>> pair_planes_points(const StreamHeader& header, const PointCloud& original,
+                                                     const DecodedSweep& decoded) {
   if (const auto valid = validate(header); !valid) return valid.error();
   const auto grid = AngularGrid::create(header.planes.azimuth_step_rad, header.planes.elevation_step_rad);
   if (!grid) return grid.error();

@@ -113,7 +113,9 @@ class PlanesEncoder final : public Encoder::Implementation {
 
 Result<std::unique_ptr<Encoder::Implementation>> make_planes_encoder(const EncoderOptions& options,
                                                                      const Runtime& runtime) {
-  StreamHeader header{options.method, options.planes};
+  StreamHeader header;
+  header.method = options.method;
+  header.planes = options.planes;
   if (header.planes.residual_mode == ResidualMode::stepped && header.planes.residual_step_m == 0) {
     header.planes.residual_step_m = 2 * header.planes.threshold_m;
   }

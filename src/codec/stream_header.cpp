@@ -8,7 +8,8 @@
 
 namespace pointreel {
 
-double StreamHeader::range_bound_m() const {
+double StreamHeader::bound_m() const {
+  if (method == Method::mixture) return max_error_m;
   return planes.residual_mode == ResidualMode::raw_float
              ? planes.threshold_m
              : std::max(planes.threshold_m, planes.residual_step_m / 2);
@@ -21,6 +22,13 @@ Result<void> validate(const StreamHeader& header) {
   };
   const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
   const PlanesOptions& planes = header.planes;
+  if (header.method == Method::mixture) {
+    if (!within(header.max_error_m, 0.0005, 1)) {
+      return out_of_range("max-error", header.max_error_m, "0.0005 to 1 m");
+    }
+    if (!within(header.group, 1, 255)) return out_of_range("group", header.group, "1 to 255 sweeps");
+    return {};
+  }
   if (header.method != Method::planes) {
     return Error{ErrorCode::unsupported,
                  "method " + std::to_string(static_cast<int>(header.method)) + " is not known"};

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "predict/experts-inl.h"
-#include "predict/range_quantiser.h"
+#include "predict/band_coding.h"
 #include "predict/step_coder-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -23,12 +23,13 @@ namespace HWY_NAMESPACE {
 
 class RangeModel {
  public:
-  RangeModel(int rows, int columns, const RangeQuantiser& quantiser, RangeModelState& state)
-      : quantiser_(quantiser),
-        canvas_(rows, columns),
+  RangeModel(const Band& band, int columns, const RangeQuantiser& quantiser, const RangeModelState& priors)
+      : step_m_(quantiser.step_m),
+        on_lattice_(quantiser.on_lattice()),
+        canvas_(band.rows, columns),
         errors_(columns),
-        steps_(static_cast<std::size_t>(rows + CausalCanvas::kRowsAbove) * canvas_.stride()),
-        state_(state) {}
+        steps_(static_cast<std::size_t>(band.rows + CausalCanvas::kRowsAbove) * canvas_.stride()),
+        state_(priors) {}
 
   // Before the first cell of each row. `phase_m`: where the row's lattice has a point.
   void start_row(int row, float phase_m) {
@@ -44,12 +45,12 @@ class RangeModel {
   float code(Coder& coder, int column, float range_m) {
     constexpr float kUnknownSquaredSteps = 30;  // the experts' error where no neighbour is known
     const std::size_t index = canvas_.index(row_, column);
-    const float step_m = quantiser_.step_m;
+    const float step_m = step_m_;
     const Float16 proposals_m = propose_ranges(canvas_, index, column, memory_);
     const Float16 errors =
         recent_errors(errors_, canvas_, index, column, kUnknownSquaredSteps * step_m * step_m);
     const Mixture mixture(state_.mixture, proposals_m, errors, step_m);
-    const float origin_m = quantiser_.on_lattice ? on_lattice(mixture.blend_m()) : mixture.blend_m();
+    const float origin_m = on_lattice_ ? on_lattice(mixture.blend_m()) : mixture.blend_m();
 
     const std::size_t above = index - canvas_.stride();
     const StepContext context(&steps_[index], &steps_[above], canvas_.range_m(index)[-1] > 0,
@@ -68,8 +69,8 @@ class RangeModel {
     return decoded_m;
   }
 
-  // What is decoded so far, for the hit mask.
-  const CausalCanvas& canvas() const { return canvas_; }
+
+
 
  private:
   static float at_least_smallest(float range_m) {
@@ -79,15 +80,16 @@ class RangeModel {
     return x < 0 ? -static_cast<std::int32_t>(0.5F - x) : static_cast<std::int32_t>(x + 0.5F);
   }
   float on_lattice(float range_m) const {
-    return static_cast<float>(rounded((range_m - phase_m_) / quantiser_.step_m)) * quantiser_.step_m + phase_m_;
+    return static_cast<float>(rounded((range_m - phase_m_) / step_m_)) * step_m_ + phase_m_;
   }
 
-  RangeQuantiser quantiser_;
+  float step_m_;
+  bool on_lattice_;
   CausalCanvas canvas_;
   RowMemory memory_;
   ErrorHistory errors_;
   std::vector<std::int8_t> steps_;
-  RangeModelState& state_;
+  RangeModelState state_;
   int row_ = 0;
   float phase_m_ = 0;
 };

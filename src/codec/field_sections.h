@@ -1,0 +1,21 @@
+// The fields of a sweep in a payload: which ones, and their values in output order.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/bytes.h"
+#include "codec/gridded_geometry.h"
+#include "pointreel/codec.h"
+
+namespace pointreel {
+
+// Appends the chosen fields of `cloud`. `output_order`: index in `cloud` of each output point.
+void encode_fields(const FieldSelection& selection, const PointCloud& cloud,
+                   std::span<const std::uint32_t> output_order, const CodedGeometry& geometry, int threads,
+                   ByteWriter& writer, FrameStatistics& statistics);
+
+Result<std::vector<Field>> decode_fields(const CodedGeometry& geometry, int threads, ByteReader& reader);
+
+}  // namespace pointreel

@@ -1,0 +1,43 @@
+// The geometry of a sweep on its sensor's grid, as bytes: the core of method `mixture`.
+//
+//   project -> quantise -> code bands -> verify every point, correct those that miss -> order, strays
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/bytes.h"
+#include "pointreel/codec.h"
+#include "pointreel/point_cloud.h"
+#include "sensor/sensor_model.h"
+#include "sensor/sweep_grid.h"
+
+namespace pointreel {
+
+// What both sides know of a sweep's points once its geometry is coded; one entry a point, in output order.
+struct CodedGeometry {
+  std::uint32_t rows = 0, columns = 0;         // of the coding image; 0 when there is none
+  std::vector<std::int32_t> cell_of_point;     // in the image; -1: off the grid
+  std::vector<float> range_m;                  // decoded, along the ray; 0 off the grid
+  bool order_kept = true;
+};
+
+struct EncodedGeometry {
+  CodedGeometry geometry;
+  std::vector<std::uint32_t> output_order;  // index in the input of each output point
+};
+
+// All points of `cloud` must be finite. `sweep`: its projection. Appends to `writer`.
+EncodedGeometry encode_gridded(const SensorModel& model, const PointCloud& cloud, GriddedSweep sweep,
+                               double max_error_m, int threads, ByteWriter& writer, FrameStatistics& statistics);
+
+struct DecodedGeometry {
+  CodedGeometry geometry;
+  std::vector<Point3f> positions;
+};
+
+// Error: truncated or corrupt; also when there are not `points_out` points.
+Result<DecodedGeometry> decode_gridded(const SensorModel& model, std::size_t points_out, double max_error_m,
+                                       int threads, ByteReader& reader);
+
+}  // namespace pointreel

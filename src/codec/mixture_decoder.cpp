@@ -1,0 +1,124 @@
+// Method `mixture`, the way back: sensor model -> cells and ranges -> points in order -> corrections, strays ->
+// fields.
+#include <optional>
+#include <string>
+
+#include "base/parallel.h"
+#include "codec/field_sections.h"
+#include "codec/gridded_geometry.h"
+#include "codec/method.h"
+#include "codec/mixture_payload.h"
+#include "codec/point_matching.h"
+#include "codec/sections.h"
+#include "codec/wire.h"
+#include "scatter/scattered_points.h"
+#include "sensor/sensor_coding.h"
+
+namespace pointreel {
+namespace {
+
+class MixtureDecoder final : public Decoder::Implementation {
+ public:
+  MixtureDecoder(const StreamHeader& header, int threads) : header_(header), threads_(threads) {}
+
+  std::vector<Result<DecodedSweep>> decode(std::span<const Packet> packets) override {
+    std::vector<Result<DecodedSweep>> sweeps;
+    sweeps.reserve(packets.size());
+    for (const Packet& packet : packets) {
+      auto sweep = decode(packet);
+      if (!sweep) {
+        sweep = Error{sweep.error().code, "frame " + std::to_string(packet.frame) + ": " + sweep.error().message};
+      }
+      sweeps.push_back(std::move(sweep));
+    }
+    return sweeps;
+  }
+
+ private:
+  Result<DecodedSweep> decode(const Packet& packet) {
+    if (packet.points_out > kMaxPointsPerSweep) {
+      return Error{ErrorCode::resource_limit, "it claims " + std::to_string(packet.points_out) + " points"};
+    }
+    ByteReader reader(packet.payload);
+    const auto coding = reader.get<SweepCoding>();
+    if (!reader.ok()) return Error{ErrorCode::truncated, "its payload is empty"};
+    if (coding > SweepCoding::gridded_model) return Error{ErrorCode::unsupported, "it is coded in an unknown way"};
+    if ((coding == SweepCoding::gridded) != (packet.kind == FrameKind::predicted)) {
+      return Error{ErrorCode::corrupt, "its kind and its coding contradict each other"};
+    }
+    if (packet.kind == FrameKind::key) model_frame_.reset();
+    if (coding == SweepCoding::gridded_model) {
+      auto model = decode_sensor_model(get_section(reader));
+      if (!model) return model.error();
+      model_ = *std::move(model);
+      model_frame_ = packet.frame;
+    } else if (coding == SweepCoding::gridded && model_frame_ != packet.reference_frame) {
+      return Error{ErrorCode::corrupt, "its reference frame " + std::to_string(packet.reference_frame) +
+                                           " was not decoded before it"};
+    }
+
+    auto geometry = coding == SweepCoding::scattered
+                        ? decode_scattered_sweep(packet, reader)
+                        : decode_gridded(model_, packet.points_out, header_.max_error_m, threads_, reader);
+    if (!geometry) return geometry.error();
+    auto fields = decode_fields(geometry->geometry, threads_, reader);
+    if (!fields) return fields.error();
+    if (!reader.rest().empty()) return Error{ErrorCode::corrupt, "bytes follow its fields"};
+    DecodedSweep sweep;
+    sweep.frame = packet.frame;
+    sweep.cloud.positions = std::move(geometry->positions);
+    sweep.cloud.fields = *std::move(fields);
+    sweep.order_kept = geometry->geometry.order_kept;
+    return sweep;
+  }
+
+  Result<DecodedGeometry> decode_scattered_sweep(const Packet& packet, ByteReader& reader) const {
+    auto points = decode_scattered(get_section(reader), header_.max_error_m, packet.points_out);
+    if (!points) return points.error();
+    if (points->size() != packet.points_out) {
+      return Error{ErrorCode::corrupt, "it decodes to " + std::to_string(points->size()) + " points instead of " +
+                                           std::to_string(packet.points_out)};
+    }
+    DecodedGeometry geometry;
+    geometry.geometry.cell_of_point.assign(points->size(), -1);
+    geometry.geometry.range_m.assign(points->size(), 0);
+    geometry.geometry.order_kept = points->empty();
+    geometry.positions = *std::move(points);
+    return geometry;
+  }
+
+  StreamHeader header_;
+  int threads_;
+  SensorModel model_;
+  std::optional<std::uint32_t> model_frame_;  // the frame that brought it
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Decoder::Implementation>> make_mixture_decoder(const StreamHeader& header,
+                                                                      const Runtime& runtime) {
+  if (const auto valid = validate(header); !valid) return valid.error();
+  return std::unique_ptr<Decoder::Implementation>(
+      std::make_unique<MixtureDecoder>(header, resolve_threads(runtime.threads)));
+}
+
+Result<std::vector<std::int64_t>> pair_mixture_points(const StreamHeader& header, const PointCloud& original,
+                                                      const DecodedSweep& decoded) {
+  if (const auto valid = validate(header); !valid) return valid.error();
+  const std::size_t finite = original.size() - original.count_non_finite();
+  if (finite != decoded.cloud.size()) {
+    return Error{ErrorCode::invalid_argument, "frame " + std::to_string(decoded.frame) + ": the original has " +
+                                                  std::to_string(finite) + " finite points but " +
+                                                  std::to_string(decoded.cloud.size()) +
+                                                  " were decoded: not the same sweep"};
+  }
+  if (!decoded.order_kept) return match_points(original.positions, decoded.cloud.positions, header.max_error_m);
+  std::vector<std::int64_t> pairs(original.size(), -1);
+  std::int64_t next = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (is_finite(original.positions[i])) pairs[i] = next++;
+  }
+  return pairs;
+}
+
+}  // namespace pointreel
