@@ -65,8 +65,8 @@ std::span<const std::uint8_t> reference_of(const GridSweep& sweep, const HitMask
                static_cast<std::size_t>(band.rows) * columns);
 }
 
-// Codes one band, or decodes it into `ranges`, which a decoder fills from the sweep as if it had decoded
-// them.
+// Codes one band's mask. The model's contexts take the sweep's own ranges from a decoder as well: what is
+// decoded is counted and timed, but not kept.
 template <class Coder>
 void code_band(Coder& coder, const GridSweep& sweep, HitMaskModel& model, const HitMaskBand& band) {
   const float* range = sweep.range_m.data() +
@@ -90,10 +90,7 @@ HitMaskState untrained() {
   HitMaskState state;
   for (std::size_t context = 0; context < HitMaskState::kContexts; ++context)
     state.bits[context].resize(static_cast<std::size_t>(HitMaskState::kSlots[context]));
-  for (auto& mixer : state.mixers) {
-    for (int input = 0; input < HitMaskState::kContexts; ++input)
-      mixer.set_weight(input, HitMaskState::Mixer::kOne / 5);
-  }
+  state.mixers.fill(HitMaskState::Mixer::with_weights(HitMaskState::Mixer::kOne / 5));
   return state;
 }
 

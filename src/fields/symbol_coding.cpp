@@ -34,9 +34,7 @@ std::uint32_t step_class(float step_m) {
 }  // namespace
 
 SymbolModel::SymbolModel(std::span<const std::uint64_t> weights, std::uint32_t rows)
-    : groups_(static_cast<std::uint32_t>(weights.size())),
-      rows_(std::clamp(rows, 1u, 256u)),
-      mixer_(kMaxGroups, 12000) {
+    : groups_(static_cast<std::uint32_t>(weights.size())), rows_(std::clamp(rows, 1u, 256u)) {
   while (groups_ > kMaxGroups) {
     ++low_bits_;
     groups_ = (groups_ + 1) / 2;
@@ -45,6 +43,7 @@ SymbolModel::SymbolModel(std::span<const std::uint64_t> weights, std::uint32_t r
   for (std::size_t i = 0; i < weights.size(); ++i) mass_before[(i >> low_bits_) + 1] += weights[i];
   for (std::uint32_t i = 0; i < groups_; ++i) mass_before[i + 1] += mass_before[i];
   grow(mass_before);
+  mixers_.assign(nodes_.size(), Mixer::with_weights(12'000));
   medium_ = quantiles(mass_before, kMedium);
   fine_ = quantiles(mass_before, kFine);
 
@@ -102,15 +101,15 @@ std::uint32_t SymbolModel::code_group(Coder& coder, const std::array<std::uint32
                                       std::uint32_t group) {
   std::array<CountedBit*, kContexts> base;
   for (std::size_t i = 0; i < kContexts; ++i) base[i] = bits_[i].data() + context[i] * nodes_.size();
-  typename LogisticMixer<kContexts + 1>::Inputs inputs;
+  Mixer::Inputs inputs;
   inputs[kContexts] = kBias;
   std::int32_t at = root_;
   while (at >= 0) {
     const auto node = static_cast<std::size_t>(at);
-    for (std::size_t i = 0; i < kContexts; ++i) inputs[i] = stretch(base[i][node].p_one());
-    const Probability16 p_one = squash(mixer_.mix(node, inputs));
+    for (std::size_t i = 0; i < kContexts; ++i) inputs[i] = base[i][node].stretch();
+    const Probability16 p_one = mixers_[node].p_one(inputs);
     const bool bit = coder.code_with(group >= nodes_[node].split, p_one);
-    mixer_.update<kMixingRateShift>(node, inputs, bit, p_one);
+    mixers_[node].template update<kMixingRateShift>(inputs, p_one, bit);
     for (std::size_t i = 0; i < kContexts; ++i) base[i][node].template update<kRateLimit>(bit);
     at = bit ? nodes_[node].above : nodes_[node].below;
   }

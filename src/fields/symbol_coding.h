@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "entropy/adaptive_models.h"
-#include "entropy/logistic_mixing.h"
+#include "entropy/bit_mixer.h"
 #include "fields/point_layout.h"
 
 namespace pointreel {
@@ -31,7 +31,8 @@ class SymbolModel {
   static constexpr std::size_t kMaxGroups = 256;
   static constexpr int kRateLimit = 60;
   static constexpr int kMixingRateShift = 15;
-  static constexpr LogOdds kBias = kLogOddsUnit;
+  static constexpr Stretch kBias = 256;
+  using Mixer = BitMixer<kContexts + 1>;
 
   // A decision: is the group at or above the split? A child below 0 is the group ~child.
   struct Node {
@@ -53,7 +54,7 @@ class SymbolModel {
   std::vector<Node> nodes_;
   std::vector<std::uint8_t> medium_, fine_;  // classes of a group, about equally frequent
   std::array<std::vector<CountedBit>, kContexts> bits_;
-  LogisticMixer<kContexts + 1> mixer_;
+  std::vector<Mixer> mixers_;  // one a node
   std::vector<AdaptiveBit> low_;
 };
 

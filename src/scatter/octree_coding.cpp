@@ -4,7 +4,7 @@
 #include <array>
 #include <bit>
 
-#include "entropy/logistic_mixing.h"
+#include "entropy/bit_mixer.h"
 #include "entropy/plain_bits.h"
 #include "entropy/wide_integer.h"
 
@@ -117,17 +117,19 @@ class OccupancyModel {
   static constexpr std::uint32_t kFirstOfTree = 7, kDecisions = kFirstOfTree + 256;
   static constexpr int kRateLimit = 30;
   static constexpr int kMixingRateShift = 13;
-  using Mixer = LogisticMixer<kContexts + 1>;
+  static constexpr Stretch kBias = 256;
+  using Mixer = BitMixer<kContexts + 1>;
 
   template <class Coder>
   bool code_bit(Coder& coder, const std::array<CountedBit*, kContexts>& base, std::uint32_t decision,
                 bool bit) {
     Mixer::Inputs inputs;
-    for (std::size_t i = 0; i < kContexts; ++i) inputs[i] = stretch(base[i][decision].p_one());
-    inputs[kContexts] = kLogOddsUnit;
-    const Probability16 p_one = squash(mixer_.mix(decision, inputs));
+    for (std::size_t i = 0; i < kContexts; ++i) inputs[i] = base[i][decision].stretch();
+    inputs[kContexts] = kBias;
+    Mixer& mixer = mixers_[decision];
+    const Probability16 p_one = mixer.p_one(inputs);
     const bool coded = coder.code_with(bit, p_one);
-    mixer_.update<kMixingRateShift>(decision, inputs, coded, p_one);
+    mixer.update<kMixingRateShift>(inputs, p_one, coded);
     for (std::size_t i = 0; i < kContexts; ++i) base[i][decision].update<kRateLimit>(coded);
     return coded;
   }
@@ -138,7 +140,7 @@ class OccupancyModel {
   std::array<std::vector<CountedBit>, kContexts> bits_ = {contexts(64), contexts((kMaxOctreeDepth + 1) * 8),
                                                           contexts(17 * 17), contexts(17 * 8),
                                                           contexts(256 * 8)};
-  Mixer mixer_{kDecisions, 16000};
+  std::vector<Mixer> mixers_ = std::vector<Mixer>(kDecisions, Mixer::with_weights(16'000));
 };
 
 template <class Coder>
