@@ -26,6 +26,7 @@ RangeQuantiser choose_quantiser(const SensorModel& model, const GriddedSweep& sw
     farthest_m = std::max(farthest_m, static_cast<double>(sweep.range_m[i]));
   }
   std::sort(deviations_m.begin(), deviations_m.end());
+  double best_step_m = 0, best_bits = 0;
 
   // For deviations up to d the range may be off by sqrt(E^2 - d^2); of the points beyond, those near the
   // border of their bin miss.
