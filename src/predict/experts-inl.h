@@ -40,28 +40,26 @@ HWY_INLINE Float16 propose_ranges(const CausalCanvas& canvas, std::size_t index,
   if (!(start > 0)) start = above[-1];
   if (!(start > 0)) start = above[1];
   if (!(start > 0)) start = kFirstGuessM;
-  const LocalFits fits = fit_locally(canvas, index, start, up);
   // Proposals that there is no evidence for are 0 at first, then `start`.
-  alignas(64) float proposals_m[kExperts];
-  proposals_m[0] = start;
-  // Linear in inverse range, as planes are.
-  proposals_m[1] = left2 > 0 ? inverted(2 / left - 1 / left2) : 0;
-  proposals_m[2] = inverted(fits.plane);
-  proposals_m[3] = inverted(fits.line);
-  proposals_m[4] = inverted(fits.parallel);
-  proposals_m[5] = left > 0 && up > 0 && above[1] > 0 ? left + (above[1] - up) : 0;
+  alignas(64) float seen_m[kExperts];
+  seen_m[0] = start;
+  seen_m[1] = left2 > 0 ? inverted(2 / left - 1 / left2) : 0;
+  seen_m[5] = left > 0 && up > 0 && above[1] > 0 ? left + (above[1] - up) : 0;
   // Ranges seen nearby: the surfaces that may go on here.
-  proposals_m[6] = start;
-  proposals_m[7] = up;
-  proposals_m[8] = above[-1];
-  proposals_m[9] = above[1];
-  proposals_m[10] = above[2] > 0 ? above[2] : above[1];
-  proposals_m[11] = left2;
-  proposals_m[12] = here[-3];
-  proposals_m[13] = left2 > 0 ? 0.5F * (left + left2) : 0;
-  proposals_m[14] = memory.edge_m();
-  proposals_m[15] = memory.earlier_edge_m();
-  const Float16 raw_m = load<16>(proposals_m);
+  seen_m[6] = start;
+  seen_m[7] = up;
+  seen_m[8] = above[-1];
+  seen_m[9] = above[1];
+  seen_m[10] = above[2] > 0 ? above[2] : above[1];
+  seen_m[11] = left2;
+  seen_m[12] = here[-3];
+  seen_m[13] = left2 > 0 ? 0.5F * (left + left2) : 0;
+  seen_m[14] = memory.edge_m();
+  seen_m[15] = memory.earlier_edge_m();
+  // Linear in inverse range, as planes are.
+  const LocalFits fits = fit_locally(canvas, index, start, up);
+  seen_m[2] = seen_m[3] = seen_m[4] = 0;
+  const Float16 raw_m = with_lane<2>(with_lane<3>(with_lane<4>(load<16>(seen_m), inverted(fits.parallel)), inverted(fits.line)), inverted(fits.plane));
   const Mask<16> usable = (start * load<16>(kNearestShares) <= raw_m) & (raw_m <= start * load<16>(kFarthestShares)) &
                           (all<16>(CausalCanvas::kSmallestRangeM) <= raw_m);
   return select(usable, raw_m, all<16>(start));

@@ -71,29 +71,29 @@ class Mixture {
 
   // Takes the lane of the blend: the mean of the other proposals, weighted by the inverse fourth power of
   // their recent errors.
-  HWY_INLINE Mixture(MixtureState& state, const Float16& proposals_m, const Float16& mean_squares,
+  HWY_INLINE Mixture(const MixtureState& state, const Float16& proposals_m, const Float16& mean_squares,
                      float step_m) {
     const float squared_step = step_m * step_m;
     const float floor = squared_step * 0.08F + 1e-5F;
     const Float16 precision = all<16>(1) / (mean_squares + all<16>(floor));
     const Float16 blend_weights = without_first(precision * precision);
-    store(proposals_m, proposals_m_);
-    proposals_m_[0] = sum(blend_weights * proposals_m) / sum(blend_weights);
+    blend_m_ = sum(blend_weights * proposals_m) / sum(blend_weights);
+    proposals_m_ = with_lane<0>(proposals_m, blend_m_);
 
     blend_class_ = error_class(first(mean_squares) / squared_step);
-    MixtureState::PerClass& per_class = state.classes[blend_class_];
+    const MixtureState::PerClass& per_class = state.classes[blend_class_];
     weight_ = load<16>(per_class.weight.data());
     learnt_inverse_scale_ = load<16>(per_class.inverse_scale.data());
     inverse_scale_ = (1 / step_m) * (learnt_inverse_scale_ * square_root(floor * precision));
     per_total_weight_ = 1 / sum(weight_);
   }
 
-  float blend_m() const { return proposals_m_[0]; }
-  HWY_INLINE Float16 proposals_m() const { return load<16>(proposals_m_); }
+  float blend_m() const { return blend_m_; }
+  const Float16& proposals_m() const { return proposals_m_; }
   std::size_t blend_class() const { return blend_class_; }
 
   HWY_INLINE void evaluate(float x_m, Border& border) const {
-    const Float16 z = (all<16>(x_m) - load<16>(proposals_m_)) * inverse_scale_;
+    const Float16 z = (all<16>(x_m) - proposals_m_) * inverse_scale_;
     const Float16 one = all<16>(1);
     const Float16 size = absolute(z);
     const Float16 tail = one / (one + size * (one + size));  // 1 - |G|
@@ -137,7 +137,8 @@ class Mixture {
     return larger(smaller(x, all<16>(most)), all<16>(least));
   }
 
-  alignas(64) float proposals_m_[kExperts];
+  Float16 proposals_m_;
+  float blend_m_;
   Float16 weight_;                // their sum is 1 / per_total_weight_
   Float16 learnt_inverse_scale_;  // relative to the expert's recent error
   Float16 inverse_scale_;         // per metre

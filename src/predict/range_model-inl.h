@@ -31,6 +31,8 @@ class RangeModel {
         steps_(static_cast<std::size_t>(band.rows + CausalCanvas::kRowsAbove) * canvas_.stride()),
         state_(priors) {}
 
+  const RangeModelState& state() const { return state_; }
+
   // Before the first cell of each row. `phase_m`: where the row's lattice has a point.
   void start_row(int row, float phase_m) {
     row_ = row;
