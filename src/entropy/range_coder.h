@@ -20,12 +20,10 @@ class RangeEncoder {
  public:
   void encode(bool bit, Probability16 p_one) {
     const std::uint32_t bound = (range_ >> kProbabilityBits) * p_one;
-    if (bit) {
-      range_ = bound;
-    } else {
-      low_ += bound;
-      range_ -= bound;
-    }
+    // Without a branch: bits worth coding are hard to predict.
+    const std::uint32_t if_zero = bit ? 0u : ~0u;
+    low_ += bound & if_zero;
+    range_ = bound + ((range_ - 2 * bound) & if_zero);
     while (range_ < kTop) {
       range_ <<= 8;
       shift_low();

@@ -203,10 +203,19 @@ double entropy_bits(std::span<const double> counts) {
   return bits;
 }
 
-// Bits that `ResidualModel` will take, about: the lengths' entropy and the bits below the leading ones.
-double residual_cost_bits(KeyPredictor predictor, const KeyedValues& keyed, const PointLayout& layout) {
+// What methods are compared by: the middle of the sweep, where whole rows are full.
+PointRun sample_of(const PointLayout& layout) {
+  constexpr std::size_t kSampled = 16384;
+  const std::size_t count = std::min(layout.size(), kSampled);
+  return {(layout.size() - count) / 2, count};
+}
+
+// Bits that `ResidualModel` will take for the run, about: the lengths' entropy and the bits below the leading
+// ones.
+double residual_cost_bits(KeyPredictor predictor, const KeyedValues& keyed, const PointLayout& layout,
+                          PointRun run) {
   std::array<double, 65> lengths{};
-  predict_keys(predictor, layout, [&](std::uint32_t point, std::uint64_t prediction) {
+  predict_keys(predictor, layout, run, [&](std::uint32_t point, std::uint64_t prediction) {
     const std::uint64_t key = keyed.keys[point];
     ++lengths[static_cast<std::size_t>(std::bit_width(zigzag(key - prediction)))];
     return key;
@@ -217,20 +226,22 @@ double residual_cost_bits(KeyPredictor predictor, const KeyedValues& keyed, cons
   return bits;
 }
 
-// Bits that `SymbolModel` will take, about: the entropy given the symbol to the left, coarsely, of which the
-// other contexts save a tenth, and a byte a value for the table.
+// Bits that `SymbolModel` will take for the run, about: the entropy given the symbol to the left, coarsely,
+// of which the other contexts save a tenth, and the run's share of a byte a value for the table.
 double symbol_cost_bits(std::span<const std::uint64_t> keys, const std::vector<std::uint64_t>& alphabet,
-                        const PointLayout& layout) {
+                        const PointLayout& layout, PointRun run) {
   constexpr std::size_t kClasses = 16;
   std::vector<std::vector<double>> counts(kClasses, std::vector<double>(alphabet.size(), 0));
-  const std::vector<std::uint32_t> symbols = symbols_of(keys, alphabet);
+  std::vector<std::uint64_t> keys_of_run;
+  for (const PointLayout::Place& place : layout.raster().subspan(run.first, run.count))
+    keys_of_run.push_back(keys[place.point]);
   std::size_t left = 0;
-  for (const PointLayout::Place& place : layout.raster()) {
-    const std::uint32_t symbol = symbols[place.point];
+  for (const std::uint32_t symbol : symbols_of(keys_of_run, alphabet)) {
     ++counts[left * kClasses / alphabet.size()][symbol];
     left = symbol;
   }
-  double bits = 8 * static_cast<double>(alphabet.size());
+  double bits = 8 * static_cast<double>(alphabet.size()) * static_cast<double>(run.count) /
+                static_cast<double>(layout.size());
   for (const auto& counts_after : counts) bits += 0.9 * entropy_bits(counts_after);
   return bits;
 }
@@ -240,16 +251,17 @@ Plan plan_for(const KeyedValues& keyed, const PointLayout& layout) {
   if (std::all_of(keyed.keys.begin(), keyed.keys.end(), [](std::uint64_t key) { return key == 0; }))
     return plan;
   plan.method = FieldMethod::residuals;
+  const PointRun sample = sample_of(layout);
   double best_bits = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < kKeyPredictors; ++i) {
-    const double bits = residual_cost_bits(static_cast<KeyPredictor>(i), keyed, layout);
+    const double bits = residual_cost_bits(static_cast<KeyPredictor>(i), keyed, layout, sample);
     if (bits < best_bits) {
       best_bits = bits;
       plan.predictor = static_cast<KeyPredictor>(i);
     }
   }
   if (auto alphabet = distinct_keys(keyed.keys);
-      alphabet && symbol_cost_bits(keyed.keys, *alphabet, layout) < best_bits) {
+      alphabet && symbol_cost_bits(keyed.keys, *alphabet, layout, sample) < best_bits) {
     plan.method = FieldMethod::symbols;
     plan.alphabet = *std::move(alphabet);
   }

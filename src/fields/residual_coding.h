@@ -20,19 +20,25 @@ enum class KeyPredictor : std::uint8_t {
 };
 inline constexpr std::size_t kKeyPredictors = 5;
 
-// Calls visit(point, prediction) for every point in the order of coding; it returns the point's key.
-// Predictions wrap around.
+// Some consecutive points in the order of coding.
+struct PointRun {
+  std::size_t first, count;
+};
+
+// Calls visit(point, prediction) for the run's points in the order of coding; it returns the point's key.
+// Nothing before the run is known. Predictions wrap around.
 template <class Visit>
-void predict_keys(KeyPredictor predictor, const PointLayout& layout, Visit visit) {
+void predict_keys(KeyPredictor predictor, const PointLayout& layout, PointRun run, Visit visit) {
   if (predictor == KeyPredictor::before) {
     std::uint64_t before = 0;
-    for (std::uint32_t point = 0; point < layout.size(); ++point) before = visit(point, before);
+    for (std::size_t i = run.first; i < run.first + run.count; ++i)
+      before = visit(static_cast<std::uint32_t>(i), before);
     return;
   }
   std::vector<std::uint64_t> above(layout.columns() + 1, 0);  // [column + 1]: latest key in any row above
   std::uint64_t left = 0, left_before = 0, above_left = 0;
   std::uint32_t row = layout.rows();
-  for (const PointLayout::Place& place : layout.raster()) {
+  for (const PointLayout::Place& place : layout.raster().subspan(run.first, run.count)) {
     std::uint64_t& up = above[place.column + 1];
     if (place.row != row) {
       row = place.row;
@@ -57,7 +63,8 @@ class ResidualModel {
   template <class Coder>
   void code(Coder& coder, KeyPredictor predictor, const PointLayout& layout, std::span<std::uint64_t> keys) {
     std::uint32_t size = 0, size_before = 0;
-    predict_keys(predictor, layout, [&](std::uint32_t point, std::uint64_t prediction) {
+    const PointRun all = {0, layout.size()};
+    predict_keys(predictor, layout, all, [&](std::uint32_t point, std::uint64_t prediction) {
       AdaptiveWideInteger& model = models_[size * kSizes + size_before];
       const std::uint64_t coded = model.code(coder, zigzag(keys[point] - prediction));
       size_before = size;

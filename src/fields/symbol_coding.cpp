@@ -5,12 +5,12 @@
 #include <bit>
 #include <cmath>
 #include <deque>
+#include <utility>
 
 namespace pointreel {
 namespace {
 
-constexpr std::uint32_t kMedium = 25, kFine = 34;
-constexpr std::uint32_t kStepClasses = 11, kRangeClasses = 32;
+constexpr std::uint32_t kGroupClasses = 34, kStepClasses = 11, kRangeClasses = 32;
 
 // Two classes an octave from 1 m upwards... of the range, for the return weakens with it.
 std::uint32_t range_class(float range_m) {
@@ -43,12 +43,10 @@ SymbolModel::SymbolModel(std::span<const std::uint64_t> weights, std::uint32_t r
   for (std::size_t i = 0; i < weights.size(); ++i) mass_before[(i >> low_bits_) + 1] += weights[i];
   for (std::uint32_t i = 0; i < groups_; ++i) mass_before[i + 1] += mass_before[i];
   grow(mass_before);
-  mixers_.assign(nodes_.size(), Mixer::with_weights(12'000));
-  medium_ = quantiles(mass_before, kMedium);
-  fine_ = quantiles(mass_before, kFine);
+  class_of_ = quantiles(mass_before);
 
-  const std::array<std::size_t, kContexts> contexts = {groups_ * kStepClasses, kFine * kFine, groups_,
-                                                       rows_ * kMedium, rows_ * kRangeClasses};
+  const std::array<std::size_t, kContexts> contexts = {groups_ * kStepClasses, kGroupClasses * kGroupClasses,
+                                                       rows_ * kRangeClasses};
   for (std::size_t i = 0; i < kContexts; ++i)
     bits_[i].resize(contexts[i] * std::max<std::size_t>(nodes_.size(), 1));
   low_.resize(std::size_t{groups_} << low_bits_);
@@ -59,7 +57,7 @@ void SymbolModel::grow(std::span<const std::uint64_t> mass_before) {
   struct Open {
     std::uint32_t first, end;  // groups, at least one
     std::int32_t* child_of_parent_at(std::vector<Node>& nodes) const {
-      return is_above ? &nodes[parent].above : &nodes[parent].below;
+      return &nodes[parent].child[is_above];
     }
     std::size_t parent;
     bool is_above;
@@ -80,18 +78,17 @@ void SymbolModel::grow(std::span<const std::uint64_t> mass_before) {
     const std::uint64_t twice_middle = mass_before[part.first] + mass_before[part.end];
     std::uint32_t split = part.first + 1;
     while (split + 1 < part.end && mass_before[split] + mass_before[split + 1] <= twice_middle) ++split;
-    nodes_.push_back({split, 0, 0});
+    nodes_.push_back({split, {}, Mixer::with_weights(kFirstWeight)});
     open.push_back({part.first, split, nodes_.size() - 1, false});
     open.push_back({split, part.end, nodes_.size() - 1, true});
   }
 }
 
-std::vector<std::uint8_t> SymbolModel::quantiles(std::span<const std::uint64_t> mass_before,
-                                                 std::uint32_t classes) const {
+std::vector<std::uint8_t> SymbolModel::quantiles(std::span<const std::uint64_t> mass_before) const {
   std::vector<std::uint8_t> result(groups_);
   for (std::uint32_t group = 0; group < groups_; ++group) {
     const std::uint64_t twice_middle = mass_before[group] + mass_before[group + 1];
-    result[group] = static_cast<std::uint8_t>(twice_middle * classes / (2 * mass_before[groups_] + 1));
+    result[group] = static_cast<std::uint8_t>(twice_middle * kGroupClasses / (2 * mass_before[groups_] + 1));
   }
   return result;
 }
@@ -105,46 +102,45 @@ std::uint32_t SymbolModel::code_group(Coder& coder, const std::array<std::uint32
   inputs[kContexts] = kBias;
   std::int32_t at = root_;
   while (at >= 0) {
-    const auto node = static_cast<std::size_t>(at);
-    for (std::size_t i = 0; i < kContexts; ++i) inputs[i] = base[i][node].stretch();
-    const Probability16 p_one = mixers_[node].p_one(inputs);
-    const bool bit = coder.code_with(group >= nodes_[node].split, p_one);
-    mixers_[node].template update<kMixingRateShift>(inputs, p_one, bit);
-    for (std::size_t i = 0; i < kContexts; ++i) base[i][node].template update<kRateLimit>(bit);
-    at = bit ? nodes_[node].above : nodes_[node].below;
+    const auto index = static_cast<std::size_t>(at);
+    Node& node = nodes_[index];
+    for (std::size_t i = 0; i < kContexts; ++i) inputs[i] = base[i][index].stretch();
+    const Probability16 p_one = node.mixer.p_one(inputs);
+    const bool bit = coder.code_with(group >= node.split, p_one);
+    node.mixer.template update<kMixingRateShift>(inputs, p_one, bit);
+    for (std::size_t i = 0; i < kContexts; ++i) base[i][index].template update<kRateLimit>(bit);
+    at = node.child[bit ? 1 : 0];
   }
   return static_cast<std::uint32_t>(~at);
 }
 
 template <class Coder>
-void SymbolModel::code(Coder& coder, const PointLayout& layout, std::span<std::uint32_t> symbols) {
-  // Per column: group and range of the latest point in any row above. One more column on either side.
+void SymbolModel::code(Coder& shared_coder, const PointLayout& layout, std::span<std::uint32_t> symbols) {
+  Coder coder = std::move(shared_coder);  // a local one can stay in registers
+  // Per column: group and range of the latest point in any row above.
   struct Cell {
     std::uint32_t group = 0;
     float range_m = 0;
   };
-  std::vector<Cell> above(layout.columns() + 2);
+  std::vector<Cell> above(layout.columns());
   Cell left, left_before;  // the previous points of the row, or the first column's from above
-  std::uint32_t left_third = 0, row = layout.rows();
+  std::uint32_t row = layout.rows();
 
   const auto places = layout.raster();
   for (std::size_t i = 0; i < places.size(); ++i) {
     const PointLayout::Place& place = places[i];
-    Cell* const up = above.data() + place.column + 1;
+    Cell* const up = above.data() + place.column;
     if (place.row != row) {
       row = place.row;
       left = left_before = *up;
-      left_third = up->group;
       if constexpr (Coder::kDecodes) {
-        if (coder.overran()) return;
+        if (coder.overran()) break;
       }
     }
     const std::uint32_t row_class = std::min(row, rows_ - 1);
-    const std::uint32_t mean =
-        (2 * left.group + left_before.group + left_third + 2 * up->group + up[-1].group + up[1].group) / 8;
     const std::array<std::uint32_t, kContexts> context = {
         left.group * kStepClasses + step_class(place.range_m - left.range_m),
-        fine_[left.group] * kFine + fine_[left_before.group], mean, row_class * kMedium + medium_[left.group],
+        class_of_[left.group] * kGroupClasses + class_of_[left_before.group],
         row_class * kRangeClasses + range_class(place.range_m)};
     const std::uint32_t group = code_group(coder, context, symbols[i] >> low_bits_);
     std::uint32_t low = 1;
@@ -153,11 +149,11 @@ void SymbolModel::code(Coder& coder, const PointLayout& layout, std::span<std::u
       low = (low << 1) | (coder.code(tree[low], (symbols[i] >> bit) & 1u) ? 1u : 0u);
     }
     symbols[i] = (group << low_bits_) | (low - (1u << low_bits_));
-    left_third = left_before.group;
     left_before = left;
     left = {group, place.range_m};
     *up = left;
   }
+  shared_coder = std::move(coder);
 }
 
 template void SymbolModel::code(BitEncoder&, const PointLayout&, std::span<std::uint32_t>);

@@ -3,6 +3,7 @@
 // and different from laser to laser.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -27,22 +28,23 @@ class SymbolModel {
   void code(Coder& coder, const PointLayout& layout, std::span<std::uint32_t> symbols);
 
  private:
-  static constexpr std::size_t kContexts = 5;
+  static constexpr std::size_t kContexts = 3;
   static constexpr std::size_t kMaxGroups = 256;
-  static constexpr int kRateLimit = 60;
-  static constexpr int kMixingRateShift = 15;
+  static constexpr int kRateLimit = 30;
+  static constexpr int kMixingRateShift = 14;
+  static constexpr std::int32_t kFirstWeight = 17'000;
   static constexpr Stretch kBias = 256;
   using Mixer = BitMixer<kContexts + 1>;
 
   // A decision: is the group at or above the split? A child below 0 is the group ~child.
   struct Node {
     std::uint32_t split;
-    std::int32_t below, above;
+    std::array<std::int32_t, 2> child;  // below, above
+    Mixer mixer;
   };
 
   void grow(std::span<const std::uint64_t> mass_before);
-  std::vector<std::uint8_t> quantiles(std::span<const std::uint64_t> mass_before,
-                                      std::uint32_t classes) const;
+  std::vector<std::uint8_t> quantiles(std::span<const std::uint64_t> mass_before) const;
 
   template <class Coder>
   std::uint32_t code_group(Coder& coder, const std::array<std::uint32_t, kContexts>& context,
@@ -52,9 +54,8 @@ class SymbolModel {
   int low_bits_ = 0;  // a symbol is its group and this many bits
   std::int32_t root_ = 0;
   std::vector<Node> nodes_;
-  std::vector<std::uint8_t> medium_, fine_;  // classes of a group, about equally frequent
+  std::vector<std::uint8_t> class_of_;  // of a group; classes are about equally frequent
   std::array<std::vector<CountedBit>, kContexts> bits_;
-  std::vector<Mixer> mixers_;  // one a node
   std::vector<AdaptiveBit> low_;
 };
 
