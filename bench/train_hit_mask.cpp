@@ -1,23 +1,22 @@
 // Trains the hit mask's priors, and measures what the mask costs.
 //
-//   train_hit_mask FILE... > src/predict/hit_mask_priors.cpp     trains
-//   train_hit_mask --measure [--bands N] FILE...                  bits per point with the priors compiled in
+//   train_hit_mask SWEEP... > src/predict/hit_mask_priors.cpp     trains
+//   train_hit_mask --measure [--bands N] SWEEP...                  bits per point with the priors compiled in
 //
-// A FILE is one sweep on the sensor's grid, little-endian: int32 rows, int32 columns, then row-major float32
-// range_m (0 = no return) and uint8 HitReference bits (all 0: no reference).
+// The reference of a sweep is the mask of the sweep before it, where both come from one folder.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "entropy/adaptive_models.h"
 #include "predict/hit_mask.h"
-#include "predict/hit_mask_priors.h"
+#include "prior_tables.h"
+#include "training_images.h"
 
 namespace pointreel {
 namespace {
@@ -36,21 +35,23 @@ struct GridSweep {
   }
 };
 
-bool read_sweep(const std::string& path, GridSweep& sweep) {
-  std::ifstream file(path, std::ios::binary);
-  const auto read = [&](void* to, std::size_t bytes) {
-    file.read(static_cast<char*>(to), static_cast<std::streamsize>(bytes));
-  };
-  read(&sweep.rows, 4);
-  read(&sweep.columns, 4);
-  if (!file || sweep.rows < 1 || sweep.rows > 1024 || sweep.columns < 1 || sweep.columns > 1 << 16)
-    return false;
-  const auto cells = static_cast<std::size_t>(sweep.rows) * static_cast<std::size_t>(sweep.columns);
-  sweep.range_m.resize(cells);
-  sweep.reference.resize(cells);
-  read(sweep.range_m.data(), cells * sizeof(float));
-  read(sweep.reference.data(), cells);
-  return static_cast<bool>(file);
+std::vector<GridSweep> grid_sweeps(const std::vector<std::string>& paths) {
+  std::vector<GridSweep> sweeps;
+  for (TrainingImage& training : training_images(paths)) {
+    GridSweep sweep{training.image.rows, training.image.columns, std::move(training.image.range_m), {}};
+    sweep.reference.resize(sweep.range_m.size());
+    if (training.follows_previous && !sweeps.empty() && sweeps.back().rows == sweep.rows) {
+      const GridSweep& before = sweeps.back();
+      for (std::size_t i = 0; i < sweep.range_m.size(); ++i) {
+        const auto columns = static_cast<std::size_t>(sweep.columns);
+        const auto columns_before = static_cast<std::size_t>(before.columns);
+        const std::size_t column = i % columns * columns_before / columns;
+        if (before.range_m[i / columns * columns_before + column] > 0) sweep.reference[i] = kPreviousHit;
+      }
+    }
+    sweeps.push_back(std::move(sweep));
+  }
+  return sweeps;
 }
 
 HitMaskBand band_of(const GridSweep& sweep, int band, int bands) {
@@ -126,38 +127,14 @@ void train(HitMaskState& state, const GridSweep& sweep, bool with_reference, int
   }
 }
 
-// The byte of kHitMaskPriors; half the bits seen count, at most the last of kPriorCounts.
-int prior_byte(const CountedBit& bit) {
-  int count = 0;
-  for (int level = 1; level < 4; ++level) {
-    if (bit.count() >= 2u * kPriorCounts[static_cast<std::size_t>(level)]) count = level;
-  }
-  const int step = std::clamp((bit.stretch() + kMaxStretch) / kPriorStep, 0, 63);
-  return (bit.count() == 0 ? 32 : step) << 2 | count;
-}
-
-void print_list(const std::vector<int>& values) {
-  std::string line = "   ";
-  for (const int value : values) {
-    const std::string item = fmt::format(" {},", value);
-    if (line.size() + item.size() > 110) {
-      fmt::print("{}\n", line);
-      line = "   ";
-    }
-    line += item;
-  }
-  fmt::print("{}\n", line);
-}
-
 void print_priors(const HitMaskState& state) {
   std::vector<int> bytes;
   for (const auto& bits : state.bits) {
-    for (const CountedBit& bit : bits) bytes.push_back(prior_byte(bit));
+    for (const CountedBit& bit : bits) bytes.push_back(prior_byte(bit.p_one(), bit.count()));
   }
   std::vector<int> weights;
   for (const auto& mixer : state.mixers) {
-    for (int input = 0; input < HitMaskState::kContexts; ++input)
-      weights.push_back(mixer.weight(input) / (HitMaskState::Mixer::kOne / 256));
+    for (std::size_t input = 0; input < HitMaskState::kContexts; ++input) weights.push_back(prior_weight(mixer, input));
   }
   fmt::print(
       "// Made by bench/train_hit_mask.\n#include \"predict/hit_mask_priors.h\"\n\nnamespace pointreel {{\n\n"
@@ -231,18 +208,12 @@ int run(int argc, char** argv) {
   std::vector<std::string> paths;
   bool measuring = false;
   int bands = 1;
-  app.add_option("files", paths, "sweeps on the sensor's grid")->required();
+  app.add_option("SWEEP", paths, "Sweeps: files, folders or globs")->required();
   app.add_flag("--measure", measuring, "measure instead of training");
   app.add_option("--bands", bands, "bands of rows, measured with a state each")->check(CLI::Range(1, 16));
   CLI11_PARSE(app, argc, argv);
 
-  std::vector<GridSweep> sweeps(paths.size());
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    if (!read_sweep(paths[i], sweeps[i])) {
-      fmt::print(stderr, "{}: not a sweep on a grid\n", paths[i]);
-      return 1;
-    }
-  }
+  const std::vector<GridSweep> sweeps = grid_sweeps(paths);
   if (measuring) {
     measure(sweeps, bands, false);
     measure(sweeps, bands, true);

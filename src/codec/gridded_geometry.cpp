@@ -134,7 +134,10 @@ EncodedGeometry encode_gridded(const SensorModel& model, const PointCloud& cloud
   }
   const auto bands = bands_of(image.rows, image.columns);
   std::vector<CodedBand> coded(bands.size());
-  parallel_for(bands.size(), threads, [&](std::size_t b) { coded[b] = encode_band(quantiser, bands[b], image); });
+  parallel_for(bands.size(), threads, [&](std::size_t b) {
+    BandState state = BandState::from_priors(quantiser, bands[b]);
+    coded[b] = encode_band(quantiser, bands[b], image, state);
+  });
   for (const CodedBand& band : coded) {
     put_section(writer, band.mask);
     put_section(writer, band.ranges);
@@ -213,7 +216,8 @@ Result<DecodedGeometry> decode_gridded(const SensorModel& model, std::size_t poi
   if (!reader.ok()) return Error{ErrorCode::truncated, "it ends within its ranges"};
   std::vector<Result<void>> results(bands.size());
   parallel_for(bands.size(), threads, [&](std::size_t b) {
-    results[b] = decode_band(*quantiser, bands[b], masks[b], ranges[b], image);
+    BandState state = BandState::from_priors(*quantiser, bands[b]);
+    results[b] = decode_band(*quantiser, bands[b], masks[b], ranges[b], image, state);
   });
   for (const auto& result : results) {
     if (!result) return result.error();

@@ -19,10 +19,9 @@ namespace HWY_NAMESPACE {
 // False when a decoder runs out of bytes. Both streams advance cell by cell, each predicted from the other.
 template <class Coder>
 bool code_band(Coder& mask_coder, Coder& range_coder, const RangeQuantiser& quantiser, const Band& band,
-               GridImage& image) {
-  HitMaskModel mask({band.first_row, band.rows, image.columns, image.rows}, {},
-                    HitMaskState::from_priors(band.rows));
-  RangeModel ranges(band, image.columns, quantiser, RangeModelState());
+               GridImage& image, BandState& state) {
+  HitMaskModel mask({band.first_row, band.rows, image.columns, image.rows}, {}, std::move(state.mask));
+  RangeModel ranges(band, image.columns, quantiser, state.ranges);
   for (int row = 0; row < band.rows; ++row) {
     const int image_row = band.first_row + row;
     mask.begin_row();
@@ -37,19 +36,20 @@ bool code_band(Coder& mask_coder, Coder& range_coder, const RangeQuantiser& quan
       if (mask_coder.overran() || range_coder.overran()) return false;
     }
   }
+  state.mask = mask.state();
   return true;
 }
 
-CodedBand encode(const RangeQuantiser& quantiser, const Band& band, GridImage& image) {
+CodedBand encode(const RangeQuantiser& quantiser, const Band& band, GridImage& image, BandState& state) {
   BitEncoder mask_coder, range_coder;
-  code_band(mask_coder, range_coder, quantiser, band, image);
+  code_band(mask_coder, range_coder, quantiser, band, image, state);
   return {mask_coder.finish(), range_coder.finish()};
 }
 
 bool decode(const RangeQuantiser& quantiser, const Band& band, std::span<const std::uint8_t> mask,
-            std::span<const std::uint8_t> ranges, GridImage& image) {
+            std::span<const std::uint8_t> ranges, GridImage& image, BandState& state) {
   BitDecoder mask_coder(mask), range_coder(ranges);
-  return code_band(mask_coder, range_coder, quantiser, band, image);
+  return code_band(mask_coder, range_coder, quantiser, band, image, state);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -74,13 +74,17 @@ std::vector<Band> bands_of(int rows, int columns) {
   return bands;
 }
 
-CodedBand encode_band(const RangeQuantiser& quantiser, const Band& band, GridImage& image) {
-  return HWY_DYNAMIC_DISPATCH(encode)(quantiser, band, image);
+BandState BandState::from_priors(const RangeQuantiser& quantiser, const Band& band) {
+  return {HitMaskState::from_priors(band.rows), RangeModelState::from_priors(quantiser.step_m)};
+}
+
+CodedBand encode_band(const RangeQuantiser& quantiser, const Band& band, GridImage& image, BandState& state) {
+  return HWY_DYNAMIC_DISPATCH(encode)(quantiser, band, image, state);
 }
 
 Result<void> decode_band(const RangeQuantiser& quantiser, const Band& band, std::span<const std::uint8_t> mask,
-                         std::span<const std::uint8_t> ranges, GridImage& image) {
-  if (!HWY_DYNAMIC_DISPATCH(decode)(quantiser, band, mask, ranges, image)) {
+                         std::span<const std::uint8_t> ranges, GridImage& image, BandState& state) {
+  if (!HWY_DYNAMIC_DISPATCH(decode)(quantiser, band, mask, ranges, image, state)) {
     return Error{ErrorCode::truncated, "the ranges end before the last of rows " + std::to_string(band.first_row) +
                                            " to " + std::to_string(band.first_row + band.rows - 1)};
   }

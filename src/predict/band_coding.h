@@ -8,7 +8,9 @@
 
 #include "pointreel/result.h"
 #include "predict/grid_image.h"
+#include "predict/hit_mask.h"
 #include "predict/range_quantiser.h"
+#include "predict/range_state.h"
 
 namespace pointreel {
 
@@ -20,6 +22,14 @@ struct Band {
 // About 70,000 cells each: fewer learn too little, more leave threads idle.
 std::vector<Band> bands_of(int rows, int columns);
 
+// Everything that adapts while a band is coded.
+struct BandState {
+  HitMaskState mask;
+  RangeModelState ranges;
+
+  static BandState from_priors(const RangeQuantiser& quantiser, const Band& band);
+};
+
 struct CodedBand {
   std::vector<std::uint8_t> mask;    // which cells hold a return
   std::vector<std::uint8_t> ranges;  // of those that do
@@ -27,11 +37,11 @@ struct CodedBand {
 
 // Ranges in the band must be 0 or positive and within kMostRangeSteps steps; they are replaced by what the
 // decoder will see, within half a step of the original but for float rounding.
-CodedBand encode_band(const RangeQuantiser& quantiser, const Band& band, GridImage& image);
+CodedBand encode_band(const RangeQuantiser& quantiser, const Band& band, GridImage& image, BandState& state);
 
 // Fills the band's rows of `image`. Error: truncated, when there are fewer bytes than the cells need.
 Result<void> decode_band(const RangeQuantiser& quantiser, const Band& band, std::span<const std::uint8_t> mask,
-                         std::span<const std::uint8_t> ranges, GridImage& image);
+                         std::span<const std::uint8_t> ranges, GridImage& image, BandState& state);
 
 inline constexpr float kMostRangeSteps = 1 << 24;
 

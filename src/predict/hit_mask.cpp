@@ -94,10 +94,7 @@ HitMaskState HitMaskState::from_priors(int rows) {
   const std::uint8_t* prior = kHitMaskPriors.data();
   for (std::size_t context = 0; context < kContexts; ++context) {
     auto& bits = state.bits[context];
-    for (int slot = 0; slot < kSlots[context]; ++slot, ++prior) {
-      const Stretch stretch = (*prior >> 2) * kPriorStep - kMaxStretch + kPriorStep / 2 - 1;
-      bits.emplace_back(squash(stretch), kPriorCounts[*prior & 3]);
-    }
+    for (int slot = 0; slot < kSlots[context]; ++slot) bits.push_back(bit_from_prior(*prior++));
   }
   auto& row_bits = state.bits[kRow];
   const std::vector<CountedBit> one_row = row_bits;

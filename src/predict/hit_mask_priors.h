@@ -18,6 +18,10 @@ inline constexpr int kHitMaskPriorSlots = [] {
 inline constexpr int kPriorStep = 64;  // in Stretch units
 inline constexpr std::array<std::uint8_t, 4> kPriorCounts = {0, 3, 10, 30};
 
+inline CountedBit bit_from_prior(std::uint8_t prior) {
+  return {squash((prior >> 2) * kPriorStep - kMaxStretch + kPriorStep / 2 - 1), kPriorCounts[prior & 3]};
+}
+
 extern const std::array<std::uint8_t, kHitMaskPriorSlots> kHitMaskPriors;
 // In units of 1/256.
 extern const std::array<std::int16_t, HitMaskState::kMixers * HitMaskState::kContexts> kHitMaskWeights;

@@ -23,15 +23,13 @@ namespace HWY_NAMESPACE {
 
 class RangeModel {
  public:
-  RangeModel(const Band& band, int columns, const RangeQuantiser& quantiser, const RangeModelState& priors)
+  RangeModel(const Band& band, int columns, const RangeQuantiser& quantiser, RangeModelState& state)
       : step_m_(quantiser.step_m),
         on_lattice_(quantiser.on_lattice()),
         canvas_(band.rows, columns),
         errors_(columns),
         steps_(static_cast<std::size_t>(band.rows + CausalCanvas::kRowsAbove) * canvas_.stride()),
-        state_(priors) {}
-
-  const RangeModelState& state() const { return state_; }
+        state_(state) {}
 
   // Before the first cell of each row. `phase_m`: where the row's lattice has a point.
   void start_row(int row, float phase_m) {
@@ -91,7 +89,7 @@ class RangeModel {
   RowMemory memory_;
   ErrorHistory errors_;
   std::vector<std::int8_t> steps_;
-  RangeModelState state_;
+  RangeModelState& state_;
   int row_ = 0;
   float phase_m_ = 0;
 };

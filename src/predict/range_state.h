@@ -61,6 +61,9 @@ struct StepModels {
 struct RangeModelState {
   MixtureState mixture = MixtureState::untrained();
   StepModels steps;
+
+  // As trained offline by bench/train_range_model, for steps of about this size.
+  static RangeModelState from_priors(float step_m);
 };
 
 }  // namespace pointreel
