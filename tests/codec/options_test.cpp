@@ -51,9 +51,10 @@ TEST(EncoderOptions, OutOfRangeValuesOfMixtureNameTheirOption) {
                  ErrorCode::invalid_argument, "group must lie in 1 to 255 sweeps");
   }
   for (const double bad : {-0.1, kNan, std::numeric_limits<double>::infinity()}) {
-    expect_error(
-        mixture_encoder_with([&](MixtureOptions& mixture) { mixture.fields.named = {{"intensity", bad}}; }),
-        ErrorCode::invalid_argument, "fields: the step of intensity");
+    expect_error(mixture_encoder_with([&](MixtureOptions& mixture) {
+                   mixture.fields.named = {{"intensity", bad}};
+                 }),
+                 ErrorCode::invalid_argument, "fields: the step of intensity");
   }
 }
 
