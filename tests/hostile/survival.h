@@ -90,7 +90,7 @@ inline Outcome survive(const std::string& bytes) {
 
 // A short simulated drive in two groups of three.
 struct SampleReel {
-  EncoderOptions options;
+  EncoderOptions options = planes_options();
   StreamHeader header;
   std::vector<Packet> packets;
 
