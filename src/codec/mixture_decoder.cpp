@@ -62,6 +62,9 @@ class MixtureDecoder final : public Decoder::Implementation {
                         : decode_gridded(model_, packet.points_out, header_.max_error_m, threads_, reader);
     if (!geometry) return geometry.error();
     const std::size_t field_bytes = ByteReader(reader).rest().size();  // a copy: rest() takes them
+    for (const Point3f& position : geometry->positions) {
+      if (!is_finite(position)) return Error{ErrorCode::corrupt, "it holds a position that is not finite"};
+    }
     auto fields = decode_fields(geometry->geometry, threads_, reader);
     if (!fields) return fields.error();
     if (!reader.rest().empty()) return Error{ErrorCode::corrupt, "bytes follow its fields"};
