@@ -113,9 +113,6 @@ void add_encode_arguments(CLI::App& verb, EncodeArguments& arguments) {
           ->group(mixture)};
 
   const std::string planes = "Method planes";
-  auto* poses =
-      verb.add_option("--poses", arguments.poses, "Sensor poses, one per sweep (KITTI), or with times (TUM)")
-          ->group(planes);
   arguments.planes_only = {
       verb.add_option("--threshold", arguments.threshold, "Range error on planes at most, 1mm to 10m")
           ->capture_default_str()
@@ -133,12 +130,15 @@ void add_encode_arguments(CLI::App& verb, EncodeArguments& arguments) {
               "--residual-step", arguments.residual_step,
               "Range step of cells on no plane: auto (twice the threshold), raw (float32), or a length")
           ->capture_default_str()
-          ->group(planes),
-      poses,
-      verb.add_option("--imu", arguments.imu,
-                      "IMU recording: .csv (t, ax, ay, az, wx, wy, wz) or a KITTI oxts folder")
-          ->excludes(poses)
           ->group(planes)};
+  auto* poses =
+      verb.add_option("--poses", arguments.poses, "Sensor poses, one per sweep (KITTI), or with times (TUM)")
+          ->group(planes);
+  auto* imu = verb.add_option("--imu", arguments.imu,
+                              "IMU recording: .csv (t, ax, ay, az, wx, wy, wz) or a KITTI oxts folder")
+                  ->excludes(poses)
+                  ->group(planes);
+  arguments.planes_only.insert(arguments.planes_only.end(), {poses, imu});
 }
 
 Result<EncoderOptions> encoder_options(const EncodeArguments& arguments) {
