@@ -51,7 +51,7 @@ std::vector<std::uint8_t> with_pose(const std::vector<float>& pose, std::vector<
 }
 
 TEST(CraftedReels, PosesOfNanAndInfinity) {
-  const SampleReel good(ResidualMode::stepped);
+  const SampleReel good(planes_sample(ResidualMode::stepped));
   const float nan = std::numeric_limits<float>::quiet_NaN(),
               infinity = std::numeric_limits<float>::infinity();
   for (const float value : {nan, infinity, -infinity, 2.0f, 3e38f}) {
@@ -134,7 +134,7 @@ TEST(CraftedReels, RowsBeyondTheMostCellsAreErrors) {
 }
 
 TEST(CraftedReels, CountsThatClaimBillions) {
-  const SampleReel good(ResidualMode::raw_float);
+  const SampleReel good(planes_sample(ResidualMode::raw_float));
   auto packets = good.packets;
   for (Packet& packet : packets) packet.points_in = packet.points_out = 0xFFFFFFFFu, packet.non_finite = 0;
   const Outcome outcome = survive(reel_of(good.header, packets));
@@ -142,7 +142,7 @@ TEST(CraftedReels, CountsThatClaimBillions) {
 }
 
 TEST(CraftedReels, SizesThatClaimMoreThanTheFile) {
-  std::string bytes = SampleReel(ResidualMode::stepped).bytes();
+  std::string bytes = SampleReel(planes_sample(ResidualMode::stepped)).bytes();
   for (const std::uint32_t size : {kMaxPayloadBytes, kMaxPayloadBytes + 1, 0xFFFFFFFFu, 0u}) {
     std::memcpy(&bytes[kStreamHeaderBytes + 4], &size, sizeof(size));
     const Outcome outcome = survive(bytes);
