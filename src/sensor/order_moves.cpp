@@ -25,20 +25,25 @@ OrderMove code_move(Coder& coder, MoveModels& models, std::int64_t last_from, co
 
 std::vector<std::uint32_t> order_breakers(std::span<const std::uint32_t> keys) {
   const auto count = static_cast<std::uint32_t>(keys.size());
-  std::vector<std::uint32_t> tails;  // last element of the best subsequence of each length
-  std::vector<std::uint32_t> before(keys.size(), count);
+  // Last element of the best subsequence of each length, and its key.
+  std::vector<std::uint32_t> tails;
+  std::vector<std::uint32_t> tail_keys;
+  tails.reserve(keys.size());
+  tail_keys.reserve(keys.size());
+  std::vector<std::uint32_t> before(keys.size());
   for (std::uint32_t i = 0; i < count; ++i) {
-    auto place = tails.end();
-    if (!tails.empty() && keys[tails.back()] >= keys[i]) {
-      place = std::lower_bound(tails.begin(), tails.end(), keys[i],
-                               [&](std::uint32_t tail, std::uint32_t key) { return keys[tail] < key; });
-    }
-    if (place != tails.begin()) before[i] = *(place - 1);
-    if (place == tails.end()) {
+    const std::uint32_t key = keys[i];
+    if (tails.empty() || tail_keys.back() < key) {
+      before[i] = tails.empty() ? count : tails.back();
       tails.push_back(i);
-    } else {
-      *place = i;
+      tail_keys.push_back(key);
+      continue;
     }
+    const auto place = static_cast<std::size_t>(std::lower_bound(tail_keys.begin(), tail_keys.end(), key) -
+                                                tail_keys.begin());
+    before[i] = place == 0 ? count : tails[place - 1];
+    tails[place] = i;
+    tail_keys[place] = key;
   }
   std::vector<std::uint32_t> breakers;
   std::uint32_t kept = tails.empty() ? count : tails.back();

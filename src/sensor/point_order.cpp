@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/trigonometry.h"
 #include "sensor/order_moves.h"
@@ -10,12 +9,26 @@
 namespace pointreel {
 namespace {
 
-constexpr double kTurn = 2 * kPi;
+// Angles as fractions of a turn in 32 bits: sums wrap around by themselves, and no rounding differs.
+constexpr double kWholeTurn = 4294967296.0;
 
-double turned(double azimuth_rad) {
-  while (azimuth_rad < 0) azimuth_rad += kTurn;
-  while (azimuth_rad >= kTurn) azimuth_rad -= kTurn;
-  return azimuth_rad >= 0 ? azimuth_rad : 0;  // not a number, which no sort can bear
+std::uint32_t azimuth_of_tick(std::uint32_t tick, std::uint32_t ticks_per_turn) {
+  return static_cast<std::uint32_t>((std::uint64_t{tick % ticks_per_turn} << 32) / ticks_per_turn);
+}
+
+std::uint32_t azimuth_of_row(const RowModel& row) {
+  const double part = row.azimuth_rad / (2 * kPi) * kWholeTurn;  // within half a turn
+  return static_cast<std::uint32_t>(static_cast<std::int64_t>(part + (part < 0 ? -0.5 : 0.5)));
+}
+
+// How far the side offset turns a point at this range, if there is one; any range will do.
+inline std::int32_t turned_by_side(float side_m, float rho_m) {
+  constexpr auto kPerRad = static_cast<float>(kWholeTurn / (2 * kPi));
+  return static_cast<std::int32_t>(fast_atan2(side_m, rho_m > 0 ? rho_m : 0.0F) * kPerRad);
+}
+
+float cosine_of(const RowModel& row) {
+  return static_cast<float>(1 / std::sqrt(1 + row.slope * row.slope));
 }
 
 // Appends the occupied cells of one row, once around from the seam.
@@ -23,59 +36,80 @@ class RowWalk {
  public:
   RowWalk(std::span<const std::uint8_t> occupied, std::span<const float> range_m, const SensorModel& model,
           const SweepGrid& grid)
-      : occupied_(occupied), range_m_(range_m), model_(model), grid_(grid) {
-    const double tick_rad = kTurn / grid.ticks_per_turn;
-    seam_rad_ = grid.order.seam_tick * tick_rad;
+      : occupied_(occupied),
+        range_m_(range_m),
+        model_(model),
+        order_(grid.order),
+        seam_(azimuth_of_tick(grid.order.seam_tick, grid.ticks_per_turn)),
+        turned_by_(grid.column_count(), 0) {
+    azimuth_.reserve(grid.column_count());
     for (const std::uint32_t tick : grid.column_tick)
-      azimuth_rad_.push_back(tick % grid.ticks_per_turn * tick_rad);
+      azimuth_.push_back(azimuth_of_tick(tick, grid.ticks_per_turn));
+    keyed_.reserve(grid.column_count());
   }
 
   void append(std::uint32_t row, std::vector<std::uint32_t>& cells) {
     const RowModel& laser = model_.rows[row];
-    const std::size_t columns = azimuth_rad_.size();
-    const bool by_azimuth = grid_.order.kind == OrderKind::row_azimuth;
-    const double cosine = 1 / std::sqrt(1 + laser.slope * laser.slope);
+    const std::size_t columns = azimuth_.size();
+    const std::size_t first_cell = row * columns;
+    const std::uint32_t turn = azimuth_of_row(laser) - seam_;
+    if (order_.kind == OrderKind::row_azimuth) find_turns(laser, range_m_.subspan(first_cell, columns));
     keyed_.clear();
-    for (std::size_t c = 0; c < columns; ++c) {
-      const std::size_t cell = row * columns + c;
-      if (occupied_[cell] == 0) continue;
-      double azimuth = azimuth_rad_[c] + laser.azimuth_rad - seam_rad_;
-      if (by_azimuth) {
-        azimuth += static_cast<double>(
-            fast_atan2(static_cast<float>(laser.side_offset_m), static_cast<float>(range_m_[cell] * cosine)));
-      }
-      azimuth = turned(azimuth);
-      keyed_.push_back(
-          {grid_.order.descending ? kTurn - azimuth : azimuth, static_cast<std::uint32_t>(cell)});
-    }
-    const auto earlier = [](const Keyed& a, const Keyed& b) {
-      return a.key != b.key ? a.key < b.key : a.cell < b.cell;
+    early_.clear();
+    late_.clear();
+    const auto take = [&](std::size_t c) {
+      if (occupied_[first_cell + c] == 0) return;
+      const std::uint32_t of_column = azimuth_[c] + turn;
+      const auto of_point = of_column + static_cast<std::uint32_t>(turned_by_[c]);
+      const std::uint32_t place = order_.descending ? ~of_point : of_point;
+      const std::uint64_t key = (std::uint64_t{place} << 32) | static_cast<std::uint32_t>(first_cell + c);
+      // A side offset turns a point by less than a quarter, across the seam at most.
+      constexpr std::uint32_t kQuarter = 1u << 30;
+      if (of_column < kQuarter && of_point >= 3 * kQuarter)
+        (order_.descending ? early_ : late_).push_back(key);
+      else if (of_column >= 3 * kQuarter && of_point < kQuarter)
+        (order_.descending ? late_ : early_).push_back(key);
+      else
+        keyed_.push_back(key);
     };
-    // Two ascending runs, but for a few neighbours.
-    if (grid_.order.descending) std::reverse(keyed_.begin(), keyed_.end());
-    const auto least = std::min_element(keyed_.begin(), keyed_.end(), earlier);
-    std::rotate(keyed_.begin(), least, keyed_.end());
-    sort_nearly_sorted(earlier);
-    for (const Keyed& keyed : keyed_) cells.push_back(keyed.cell);
+    // The columns ascend, but for one step back where they or the row pass the seam.
+    std::size_t first = 0;
+    for (std::size_t c = 1; c < columns; ++c) {
+      if (azimuth_[c] + turn < azimuth_[first] + turn) first = c;
+    }
+    if (order_.descending) {
+      for (std::size_t c = first; c-- > 0;) take(c);
+      for (std::size_t c = columns; c-- > first;) take(c);
+    } else {
+      for (std::size_t c = first; c < columns; ++c) take(c);
+      for (std::size_t c = 0; c < first; ++c) take(c);
+    }
+    keyed_.insert(keyed_.begin(), early_.begin(), early_.end());
+    keyed_.insert(keyed_.end(), late_.begin(), late_.end());
+    sort_nearly_sorted();
+    for (const std::uint64_t key : keyed_) cells.push_back(static_cast<std::uint32_t>(key));
   }
 
  private:
-  struct Keyed {
-    double key;
-    std::uint32_t cell;
-  };
+  void find_turns(const RowModel& laser, std::span<const float> range_m) {
+    const float cosine = cosine_of(laser);
+    const auto side_m = static_cast<float>(laser.side_offset_m);
+    std::int32_t* turned_by = turned_by_.data();
+    for (std::size_t c = 0; c < range_m.size(); ++c)
+      turned_by[c] = turned_by_side(side_m, range_m[c] * cosine);
+  }
+
   // By insertion while that is cheap, which hostile ranges may not let it be.
-  template <class Earlier>
-  void sort_nearly_sorted(const Earlier& earlier) {
+  void sort_nearly_sorted() {
     std::size_t work = 8 * keyed_.size();
     for (std::size_t i = 1; i < keyed_.size(); ++i) {
-      const Keyed inserted = keyed_[i];
+      const std::uint64_t inserted = keyed_[i];
       std::size_t place = i;
-      for (; place > 0 && earlier(inserted, keyed_[place - 1]); --place) {
+      for (; place > 0 && inserted < keyed_[place - 1]; --place) {
         keyed_[place] = keyed_[place - 1];
         if (--work == 0) {
           keyed_[place - 1] = inserted;
-          std::sort(keyed_.begin(), keyed_.end(), earlier);
+          std::sort(keyed_.begin(), keyed_.end());
           return;
         }
       }
@@ -86,10 +120,11 @@ class RowWalk {
   std::span<const std::uint8_t> occupied_;
   std::span<const float> range_m_;
   const SensorModel& model_;
-  const SweepGrid& grid_;
-  double seam_rad_ = 0;
-  std::vector<double> azimuth_rad_;
-  std::vector<Keyed> keyed_;
+  PointOrder order_;
+  std::uint32_t seam_;
+  std::vector<std::uint32_t> azimuth_;               // of each column
+  std::vector<std::int32_t> turned_by_;              // per column of the row
+  std::vector<std::uint64_t> keyed_, early_, late_;  // azimuth from the seam, then cell
 };
 
 struct CellImage {
@@ -109,45 +144,92 @@ CellImage image_of(const SensorModel& model, const GriddedSweep& sweep) {
   return image;
 }
 
-// Where most rows begin: the azimuth (of column and row) between the last and the first point of a row, for
-// as many rows as can be. In ticks.
-std::uint32_t find_seam(const SensorModel& model, const SweepGrid& grid,
-                        const std::vector<std::uint32_t>& walk, bool descending) {
-  const std::size_t columns = grid.column_count();
-  const double tick_rad = kTurn / grid.ticks_per_turn;
-  struct Ends {
-    bool any = false;
-    double first = 0, last = 0;
-  };
-  std::vector<Ends> ends(model.rows.size());
-  for (const std::uint32_t cell : walk) {
-    Ends& row = ends[cell / columns];
-    const double azimuth = turned(grid.column_tick[cell % columns] % grid.ticks_per_turn * tick_rad +
-                                  model.rows[cell / columns].azimuth_rad);
-    if (!row.any) row.first = azimuth;
-    row.any = true;
-    row.last = azimuth;
+// The walk from one cell to the next without a division for each.
+struct RowSpan {
+  std::uint32_t row = 0, first = 0, end = 0;
+  bool holds(std::uint32_t cell) const { return cell >= first && cell < end; }
+  static RowSpan of(std::uint32_t cell, std::uint32_t columns) {
+    const std::uint32_t row = cell / columns;
+    return {row, row * columns, (row + 1) * columns};
   }
-  std::vector<double> seams = {0, kTurn / 2, kTurn / 4, kTurn * 3 / 4};
-  for (const Ends& row : ends) {
-    if (row.any) seams.push_back(row.first);
+};
+
+// The cells of a walk, row by row.
+struct RowEnds {
+  bool any = false;
+  std::uint32_t first_cell = 0, last_cell = 0;
+};
+struct WalkSummary {
+  std::vector<RowEnds> ends;  // per row
+  std::size_t same_row = 0;   // steps within a row
+  std::size_t falling = 0;    // of those, towards smaller columns
+};
+
+WalkSummary summarise(const std::vector<std::uint32_t>& walk, std::uint32_t columns, std::size_t rows) {
+  WalkSummary summary{std::vector<RowEnds>(rows), 0, 0};
+  RowSpan span;
+  std::uint32_t before = 0;
+  for (const std::uint32_t cell : walk) {
+    if (span.holds(cell)) {
+      ++summary.same_row;
+      summary.falling += cell < before ? 1 : 0;
+    } else {
+      if (span.end > 0) summary.ends[span.row].last_cell = before;
+      span = RowSpan::of(cell, columns);
+      RowEnds& ends = summary.ends[span.row];
+      if (!ends.any) ends.first_cell = cell;
+      ends.any = true;
+    }
+    before = cell;
+  }
+  if (span.end > 0) summary.ends[span.row].last_cell = before;
+  return summary;
+}
+
+// Where most rows begin: the azimuth between the last and the first point of a row, for as many rows as can
+// be. In ticks; for the kind and direction of the grid's order.
+std::uint32_t find_seam(const SensorModel& model, const SweepGrid& grid, const std::vector<RowEnds>& ends,
+                        const std::vector<float>& range_m) {
+  const std::size_t columns = grid.column_count();
+  const bool descending = grid.order.descending;
+  const auto azimuth_of = [&](std::uint32_t cell) {
+    const RowModel& row = model.rows[cell / columns];
+    const std::uint32_t of_column =
+        azimuth_of_tick(grid.column_tick[cell % columns], grid.ticks_per_turn) + azimuth_of_row(row);
+    if (grid.order.kind == OrderKind::row_major) return of_column;
+    return of_column + static_cast<std::uint32_t>(turned_by_side(static_cast<float>(row.side_offset_m),
+                                                                 range_m[cell] * cosine_of(row)));
+  };
+  struct Ends {
+    std::uint32_t first, last;
+  };
+  std::vector<Ends> azimuths;
+  std::vector<std::uint32_t> seams;  // in ticks
+  for (std::uint32_t quarter : {0u, 2u, 1u, 3u})
+    seams.push_back(static_cast<std::uint32_t>(std::uint64_t{grid.ticks_per_turn} * quarter / 4));
+  for (const RowEnds& row : ends) {
+    if (!row.any) continue;
+    azimuths.push_back({azimuth_of(row.first_cell), azimuth_of(row.last_cell)});
+    const std::uint64_t first = azimuths.back().first;
+    seams.push_back(static_cast<std::uint32_t>((first * grid.ticks_per_turn + (1u << 31)) >> 32) %
+                    grid.ticks_per_turn);
   }
   std::size_t most = 0;
-  double best = 0;
-  for (const double seam : seams) {
+  std::uint32_t best = 0;
+  for (const std::uint32_t tick : seams) {
+    const std::uint32_t seam = azimuth_of_tick(tick, grid.ticks_per_turn);
     std::size_t right = 1;
-    for (const Ends& row : ends) {
-      if (!row.any) continue;
-      const double from_last = turned(descending ? row.last - seam : seam - row.last);
-      const double to_first = turned(descending ? row.last - row.first : row.first - row.last);
+    for (const Ends& row : azimuths) {
+      const std::uint32_t from_last = descending ? row.last - seam : seam - row.last;
+      const std::uint32_t to_first = descending ? row.last - row.first : row.first - row.last;
       right += from_last > 0 && from_last <= to_first ? 1 : 0;
     }
     if (right > most) {
       most = right;
-      best = seam;
+      best = tick;
     }
   }
-  return static_cast<std::uint32_t>(best / tick_rad + 0.5) % grid.ticks_per_turn;
+  return best;
 }
 
 }  // namespace
@@ -158,6 +240,7 @@ std::vector<std::uint32_t> cells_in_order(std::span<const std::uint8_t> occupied
   const auto rows = static_cast<std::uint32_t>(model.rows.size());
   const auto columns = static_cast<std::uint32_t>(grid.column_count());
   std::vector<std::uint32_t> cells;
+  cells.reserve(occupied.size());
   if (grid.order.kind == OrderKind::column_major) {
     for (std::uint32_t i = 0; i < columns; ++i) {
       const std::uint32_t column = grid.order.descending ? columns - 1 - i : i;
@@ -194,21 +277,15 @@ PointOrder find_order(const SensorModel& model, const GriddedSweep& sweep,
   const std::size_t columns = grid.column_count();
   const CellImage image = image_of(model, sweep);
   std::vector<OrderKind> kinds;
+  WalkSummary summary;
   if (firing_descending) {
     kinds = {OrderKind::column_major};
     grid.order.descending = *firing_descending;
   } else {
-    std::size_t same_row = 0;
-    std::size_t falling = 0;
-    for (std::size_t i = 1; i < walk.size(); ++i) {
-      if (walk[i] / columns != walk[i - 1] / columns) continue;
-      ++same_row;
-      if (walk[i] < walk[i - 1]) ++falling;
-    }
-    if (same_row * 2 < walk.size()) return {};
+    summary = summarise(walk, static_cast<std::uint32_t>(columns), model.rows.size());
+    if (summary.same_row * 2 < walk.size()) return {};
     kinds = {OrderKind::row_azimuth, OrderKind::row_major};
-    grid.order.descending = falling * 2 > same_row;
-    grid.order.seam_tick = find_seam(model, grid, walk, grid.order.descending);
+    grid.order.descending = summary.falling * 2 > summary.same_row;
   }
   PointOrder best;
   std::size_t fewest = walk.size() / 50 + 2;
@@ -216,6 +293,8 @@ PointOrder find_order(const SensorModel& model, const GriddedSweep& sweep,
   std::vector<std::uint32_t> keys(walk.size());
   for (const OrderKind kind : kinds) {
     grid.order.kind = kind;
+    if (kind != OrderKind::column_major)
+      grid.order.seam_tick = find_seam(model, grid, summary.ends, image.range_m);
     const auto expected = cells_in_order(image.occupied, image.range_m, model, grid);
     for (std::size_t i = 0; i < expected.size(); ++i) place[expected[i]] = static_cast<std::uint32_t>(i);
     for (std::size_t i = 0; i < walk.size(); ++i) keys[i] = place[walk[i]];
