@@ -45,7 +45,7 @@ class RowWalk {
     azimuth_.reserve(grid.column_count());
     for (const std::uint32_t tick : grid.column_tick)
       azimuth_.push_back(azimuth_of_tick(tick, grid.ticks_per_turn));
-    keyed_.reserve(grid.column_count());
+    keys_.resize(grid.column_count() + 1);
   }
 
   void append(std::uint32_t row, std::vector<std::uint32_t>& cells) {
@@ -54,23 +54,11 @@ class RowWalk {
     const std::size_t first_cell = row * columns;
     const std::uint32_t turn = azimuth_of_row(laser) - seam_;
     if (order_.kind == OrderKind::row_azimuth) find_turns(laser, range_m_.subspan(first_cell, columns));
-    keyed_.clear();
-    early_.clear();
-    late_.clear();
+    std::size_t taken = 0;
     const auto take = [&](std::size_t c) {
-      if (occupied_[first_cell + c] == 0) return;
-      const std::uint32_t of_column = azimuth_[c] + turn;
-      const auto of_point = of_column + static_cast<std::uint32_t>(turned_by_[c]);
-      const std::uint32_t place = order_.descending ? ~of_point : of_point;
-      const std::uint64_t key = (std::uint64_t{place} << 32) | static_cast<std::uint32_t>(first_cell + c);
-      // A side offset turns a point by less than a quarter, across the seam at most.
-      constexpr std::uint32_t kQuarter = 1u << 30;
-      if (of_column < kQuarter && of_point >= 3 * kQuarter)
-        (order_.descending ? early_ : late_).push_back(key);
-      else if (of_column >= 3 * kQuarter && of_point < kQuarter)
-        (order_.descending ? late_ : early_).push_back(key);
-      else
-        keyed_.push_back(key);
+      const auto cell = static_cast<std::uint32_t>(first_cell + c);
+      keys_[taken] = key_of(azimuth_[c] + turn, turned_by_[c], cell);
+      taken += occupied_[cell] != 0 ? 1 : 0;  // branches on single cells would be mispredicted
     };
     // The columns ascend, but for one step back where they or the row pass the seam.
     std::size_t first = 0;
@@ -84,13 +72,41 @@ class RowWalk {
       for (std::size_t c = first; c < columns; ++c) take(c);
       for (std::size_t c = 0; c < first; ++c) take(c);
     }
-    keyed_.insert(keyed_.begin(), early_.begin(), early_.end());
-    keyed_.insert(keyed_.end(), late_.begin(), late_.end());
-    sort_nearly_sorted();
-    for (const std::uint64_t key : keyed_) cells.push_back(static_cast<std::uint32_t>(key));
+    const auto keys = std::span(keys_).first(taken);
+    sort_nearly_sorted(keys);
+    take_across_seam(keys);
+    for (const std::uint64_t key : keys) cells.push_back(static_cast<std::uint32_t>(key) & kCellMask);
   }
 
  private:
+  // Azimuth from the seam, which a side offset may carry to the other side of it, then the cell.
+  static constexpr int kCellBits = 24;
+  static constexpr std::uint32_t kCellMask = (1u << kCellBits) - 1;
+  static_assert(kMaxCells <= std::size_t{1} << kCellBits);
+  static constexpr std::uint64_t kSeam = std::uint64_t{1} << 33;
+  static constexpr std::uint64_t kNextSeam = kSeam + (std::uint64_t{1} << 32);
+
+  std::uint64_t key_of(std::uint32_t from_seam, std::int32_t turned_by, std::uint32_t cell) const {
+    const std::int64_t azimuth = std::int64_t{from_seam} + turned_by;
+    const std::int64_t place = order_.descending ? 0xffffffff - azimuth : azimuth;
+    return ((kSeam + static_cast<std::uint64_t>(place)) << kCellBits) | cell;
+  }
+
+  // Sorted keys before the seam go to the end, those behind the next to the beginning.
+  static void take_across_seam(std::span<std::uint64_t> keys) {
+    constexpr std::uint64_t kFirst = kSeam << kCellBits;
+    constexpr std::uint64_t kEnd = kNextSeam << kCellBits;
+    if (keys.empty() || (keys.front() >= kFirst && keys.back() < kEnd)) return;
+    const auto within = std::lower_bound(keys.begin(), keys.end(), kFirst);
+    const auto behind = std::lower_bound(within, keys.end(), kEnd);
+    for (auto key = keys.begin(); key != within; ++key) *key += kEnd - kFirst;
+    for (auto key = behind; key != keys.end(); ++key) *key -= kEnd - kFirst;
+    const auto before = within - keys.begin();
+    const auto moved = std::rotate(keys.begin(), behind, keys.end());
+    std::rotate(moved, moved + before, keys.end());
+    sort_nearly_sorted(keys);
+  }
+
   void find_turns(const RowModel& laser, std::span<const float> range_m) {
     const float cosine = cosine_of(laser);
     const auto side_m = static_cast<float>(laser.side_offset_m);
@@ -100,20 +116,20 @@ class RowWalk {
   }
 
   // By insertion while that is cheap, which hostile ranges may not let it be.
-  void sort_nearly_sorted() {
-    std::size_t work = 8 * keyed_.size();
-    for (std::size_t i = 1; i < keyed_.size(); ++i) {
-      const std::uint64_t inserted = keyed_[i];
+  static void sort_nearly_sorted(std::span<std::uint64_t> keys) {
+    std::size_t work = 8 * keys.size();
+    for (std::size_t i = 1; i < keys.size(); ++i) {
+      const std::uint64_t inserted = keys[i];
       std::size_t place = i;
-      for (; place > 0 && inserted < keyed_[place - 1]; --place) {
-        keyed_[place] = keyed_[place - 1];
+      for (; place > 0 && inserted < keys[place - 1]; --place) {
+        keys[place] = keys[place - 1];
         if (--work == 0) {
-          keyed_[place - 1] = inserted;
-          std::sort(keyed_.begin(), keyed_.end());
+          keys[place - 1] = inserted;
+          std::sort(keys.begin(), keys.end());
           return;
         }
       }
-      keyed_[place] = inserted;
+      keys[place] = inserted;
     }
   }
 
@@ -122,9 +138,9 @@ class RowWalk {
   const SensorModel& model_;
   PointOrder order_;
   std::uint32_t seam_;
-  std::vector<std::uint32_t> azimuth_;               // of each column
-  std::vector<std::int32_t> turned_by_;              // per column of the row
-  std::vector<std::uint64_t> keyed_, early_, late_;  // azimuth from the seam, then cell
+  std::vector<std::uint32_t> azimuth_;   // of each column
+  std::vector<std::int32_t> turned_by_;  // per column of the row
+  std::vector<std::uint64_t> keys_;      // of the row's cells so far, and one to spare
 };
 
 struct CellImage {
