@@ -60,12 +60,19 @@ std::vector<std::uint32_t> order_breakers(std::span<const std::uint32_t> keys) {
 
 std::vector<OrderMove> find_moves(std::span<const std::uint32_t> expected,
                                   std::span<const std::uint32_t> actual, std::size_t cells) {
-  std::vector<std::uint32_t> place(cells, 0);
-  for (std::size_t i = 0; i < expected.size(); ++i) place[expected[i]] = static_cast<std::uint32_t>(i);
-  std::vector<std::uint32_t> keys(actual.size());
-  for (std::size_t i = 0; i < actual.size(); ++i) keys[i] = place[actual[i]];
+  // Where the lists begin or end alike, nothing moves.
+  std::size_t first = 0;
+  std::size_t last = actual.size();
+  while (first < last && expected[first] == actual[first]) ++first;
+  while (last > first && expected[last - 1] == actual[last - 1]) --last;
   std::vector<OrderMove> moves;
-  for (const std::uint32_t i : order_breakers(keys)) moves.push_back({keys[i], i});
+  if (first == last) return moves;
+  std::vector<std::uint32_t> place(cells, 0);
+  for (std::size_t i = first; i < last; ++i) place[expected[i]] = static_cast<std::uint32_t>(i);
+  std::vector<std::uint32_t> keys(last - first);
+  for (std::size_t i = first; i < last; ++i) keys[i - first] = place[actual[i]];
+  for (const std::uint32_t i : order_breakers(keys))
+    moves.push_back({keys[i], static_cast<std::uint32_t>(first) + i});
   std::sort(moves.begin(), moves.end(),
             [](const OrderMove& a, const OrderMove& b) { return a.from < b.from; });
   return moves;

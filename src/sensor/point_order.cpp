@@ -305,16 +305,12 @@ PointOrder find_order(const SensorModel& model, const GriddedSweep& sweep,
   }
   PointOrder best;
   std::size_t fewest = walk.size() / 50 + 2;
-  std::vector<std::uint32_t> place(image.occupied.size(), 0);
-  std::vector<std::uint32_t> keys(walk.size());
   for (const OrderKind kind : kinds) {
     grid.order.kind = kind;
     if (kind != OrderKind::column_major)
       grid.order.seam_tick = find_seam(model, grid, summary.ends, image.range_m);
     const auto expected = cells_in_order(image.occupied, image.range_m, model, grid);
-    for (std::size_t i = 0; i < expected.size(); ++i) place[expected[i]] = static_cast<std::uint32_t>(i);
-    for (std::size_t i = 0; i < walk.size(); ++i) keys[i] = place[walk[i]];
-    const std::size_t moved = order_breakers(keys).size();
+    const std::size_t moved = find_moves(expected, walk, image.occupied.size()).size();
     if (moved >= fewest) continue;
     fewest = moved;
     best = grid.order;
