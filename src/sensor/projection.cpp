@@ -123,7 +123,8 @@ void resolve_collisions(std::size_t cells, GriddedSweep& sweep) {
 
 }  // namespace
 
-GriddedSweep project(const SensorModel& model, const PointCloud& cloud, const GridOptions& options) {
+GriddedSweep project(const SensorModel& model, const PointCloud& cloud, const GridOptions& options,
+                     const SweepGrid* previous) {
   const std::size_t count = cloud.size();
   GriddedSweep sweep;
   sweep.cell_of_point.resize(count);
@@ -134,7 +135,7 @@ GriddedSweep project(const SensorModel& model, const PointCloud& cloud, const Gr
   PolarPoints polar = polar_points(cloud, {}, options.threads);
   auto rows = assign_rows(model, cloud, polar, options.threads);
   if (model.motion_compensated) {
-    sweep.grid.motion = find_twist(model, cloud, rows);
+    sweep.grid.motion = find_twist(model, cloud, rows, previous != nullptr ? previous->motion : std::nullopt);
     polar = polar_points(cloud, sweep.grid.motion, options.threads);
   }
   settle_rows(model, polar, rows);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "sensor/blind_twist.h"
 #include "sensor/columns.h"
 #include "sensor/diagnosis.h"
 #include "sensor/firing_order.h"
@@ -16,7 +17,6 @@
 #include "sensor/row_evidence.h"
 #include "sensor/row_fit.h"
 #include "sensor/tick_lattice.h"
-#include "sensor/twist_fit.h"
 
 namespace pointreel {
 namespace {
