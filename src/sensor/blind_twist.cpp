@@ -52,27 +52,51 @@ double stretched_ticks_per_turn(const PointCloud& cloud, const RowPoints& rows, 
     }
   }
   if (differences.size() < 500) return 0;
+  constexpr std::size_t kMostDifferences = 20000;
+  if (differences.size() > kMostDifferences) {
+    const std::size_t stride = differences.size() / kMostDifferences + 1;
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < differences.size(); k += stride) differences[kept++] = differences[k];
+    differences.resize(kept);
+  }
   std::vector<double> few;
   for (std::size_t k = 0; k < differences.size(); k += differences.size() / 1500 + 1)
     few.push_back(differences[k]);
-  const auto score = [](const std::vector<double>& all, double n) {
+  const auto score = [&](double n) {
     double sum = 0;
-    for (const double d : all) sum += std::cos(n * d);
-    return sum / static_cast<double>(all.size());
+    for (const double d : differences) sum += std::cos(n * d);
+    return sum / static_cast<double>(differences.size());
   };
   constexpr double kFewest = 300;
   constexpr double kStep = 8;
+  // Each difference's phase is rotated from one number to the next.
+  std::vector<float> re, im, step_re, step_im;
+  for (const double d : few) {
+    re.push_back(static_cast<float>(std::cos(kFewest * d)));
+    im.push_back(static_cast<float>(std::sin(kFewest * d)));
+    step_re.push_back(static_cast<float>(std::cos(kStep * d)));
+    step_im.push_back(static_cast<float>(std::sin(kStep * d)));
+  }
   std::vector<double> scores;
-  for (double n = kFewest; n < 12000; n += kStep) scores.push_back(score(few, n));
+  for (double n = kFewest; n < 12000; n += kStep) {
+    float sum = 0;
+    for (std::size_t i = 0; i < re.size(); ++i) {
+      sum += re[i];
+      const float next = re[i] * step_re[i] - im[i] * step_im[i];
+      im[i] = re[i] * step_im[i] + im[i] * step_re[i];
+      re[i] = next;
+    }
+    scores.push_back(static_cast<double>(sum) / static_cast<double>(re.size()));
+  }
   const double best = *std::max_element(scores.begin(), scores.end());
   if (best < 0.4) return 0;
   for (std::size_t k = 1; k + 1 < scores.size(); ++k) {
     if (scores[k] < 0.8 * best || scores[k] < scores[k - 1] || scores[k] < scores[k + 1]) continue;
     double n = kFewest + kStep * static_cast<double>(k);
     for (double step = kStep / 2; step > 0.02; step /= 2) {
-      const double here = score(differences, n);
-      const double up = score(differences, n + step);
-      const double down = score(differences, n - step);
+      const double here = score(n);
+      const double up = score(n + step);
+      const double down = score(n - step);
       if (up > here && up >= down)
         n += step;
       else if (down > here)

@@ -1,7 +1,6 @@
 #include "sensor/tick_lattice.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <complex>
 #include <cstdlib>
@@ -54,7 +53,10 @@ std::uint32_t find_ticks_per_turn(const PolarPoints& polar, const RowPoints& row
     kept.erase(middle, kept.end());
     pairs = std::move(kept);
   }
-  const std::size_t count = pairs.size();
+  // A third of the pairs rules most numbers out.
+  constexpr std::size_t kScouts = 3;
+  constexpr double kHopeful = 0.6;
+  const std::size_t count = (pairs.size() + kScouts - 1) / kScouts;
   std::vector<float> re(count);
   std::vector<float> im(count);
   std::vector<float> step_re(count);
@@ -65,20 +67,25 @@ std::uint32_t find_ticks_per_turn(const PolarPoints& polar, const RowPoints& row
   for (std::uint32_t n = kFewest; n <= kMost; ++n) {
     if ((n - kFewest) % kRestart == 0) {
       for (std::size_t i = 0; i < count; ++i) {
-        re[i] = static_cast<float>(std::cos(n * pairs[i].difference));
-        im[i] = static_cast<float>(std::sin(n * pairs[i].difference));
-        step_re[i] = static_cast<float>(std::cos(pairs[i].difference));
-        step_im[i] = static_cast<float>(std::sin(pairs[i].difference));
+        const double difference = pairs[i * kScouts].difference;
+        re[i] = static_cast<float>(std::cos(n * difference));
+        im[i] = static_cast<float>(std::sin(n * difference));
+        step_re[i] = static_cast<float>(std::cos(difference));
+        step_im[i] = static_cast<float>(std::sin(difference));
       }
     }
-    float sum = 0;
+    float sums[4] = {};  // a single one would wait for itself
     for (std::size_t i = 0; i < count; ++i) {
-      sum += re[i];
+      sums[i % 4] += re[i];
       const float next = re[i] * step_re[i] - im[i] * step_im[i];
       im[i] = re[i] * step_im[i] + im[i] * step_re[i];
       re[i] = next;
     }
-    scores[n] = static_cast<double>(sum) / static_cast<double>(count);
+    const float sum = sums[0] + sums[1] + sums[2] + sums[3];
+    if (static_cast<double>(sum) < kHopeful * static_cast<double>(count)) continue;
+    double exact = 0;
+    for (const Pair& pair : pairs) exact += std::cos(n * pair.difference);
+    scores[n] = exact / static_cast<double>(pairs.size());
     best = std::max(best, scores[n]);
   }
   if (best < 0.75) return 0;
@@ -179,6 +186,14 @@ RowAzimuth fit_row_azimuth(const PolarPoints& polar, const std::vector<std::uint
 
 namespace {
 
+// std::popcount calls a function where the processor's instruction may not be used; this becomes SIMD code.
+std::uint32_t count_bits(std::uint64_t bits) {
+  bits -= (bits >> 1) & 0x5555555555555555u;
+  bits = (bits & 0x3333333333333333u) + ((bits >> 2) & 0x3333333333333333u);
+  bits = (bits + (bits >> 4)) & 0x0f0f0f0f0f0f0f0fu;
+  return static_cast<std::uint32_t>((bits * 0x0101010101010101u) >> 56);
+}
+
 // A set of ticks on the circle, rotated and counted 64 at a time.
 class TickSet {
  public:
@@ -197,7 +212,7 @@ class TickSet {
       if (offset != 0) here |= words[w + 1] << (64 - offset);
       std::uint64_t mask = other.words_[w];
       if (w == full) mask &= (std::uint64_t{1} << (turn_ % 64)) - 1;
-      count += static_cast<std::uint32_t>(std::popcount(here & mask));
+      count += count_bits(here & mask);
     }
     return count;
   }
