@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sensor/phase_bank.h"
 #include "sensor/row_fit.h"
 #include "sensor/twist_equations.h"
 
@@ -70,24 +71,11 @@ double stretched_ticks_per_turn(const PointCloud& cloud, const RowPoints& rows, 
   constexpr double kFewest = 300;
   constexpr double kStep = 8;
   // Each difference's phase is rotated from one number to the next.
-  std::vector<float> re, im, step_re, step_im;
-  for (const double d : few) {
-    re.push_back(static_cast<float>(std::cos(kFewest * d)));
-    im.push_back(static_cast<float>(std::sin(kFewest * d)));
-    step_re.push_back(static_cast<float>(std::cos(kStep * d)));
-    step_im.push_back(static_cast<float>(std::sin(kStep * d)));
-  }
+  PhaseBank phases;
+  for (const double d : few) phases.add(kFewest * d, kStep * d);
   std::vector<double> scores;
-  for (double n = kFewest; n < 12000; n += kStep) {
-    float sum = 0;
-    for (std::size_t i = 0; i < re.size(); ++i) {
-      sum += re[i];
-      const float next = re[i] * step_re[i] - im[i] * step_im[i];
-      im[i] = re[i] * step_im[i] + im[i] * step_re[i];
-      re[i] = next;
-    }
-    scores.push_back(static_cast<double>(sum) / static_cast<double>(re.size()));
-  }
+  for (double n = kFewest; n < 12000; n += kStep)
+    scores.push_back(static_cast<double>(phases.sum_and_turn().real()) / static_cast<double>(phases.size()));
   const double best = *std::max_element(scores.begin(), scores.end());
   if (best < 0.4) return 0;
   for (std::size_t k = 1; k + 1 < scores.size(); ++k) {

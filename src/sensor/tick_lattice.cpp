@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "sensor/phase_bank.h"
+
 namespace pointreel {
 namespace {
 
@@ -56,33 +58,18 @@ std::uint32_t find_ticks_per_turn(const PolarPoints& polar, const RowPoints& row
   // A third of the pairs rules most numbers out.
   constexpr std::size_t kScouts = 3;
   constexpr double kHopeful = 0.6;
-  const std::size_t count = (pairs.size() + kScouts - 1) / kScouts;
-  std::vector<float> re(count);
-  std::vector<float> im(count);
-  std::vector<float> step_re(count);
-  std::vector<float> step_im(count);
+  PhaseBank scouts;
   std::vector<double> scores(kMost + 1, 0);
   double best = 0;
   constexpr std::uint32_t kRestart = 256;  // float rotations drift
   for (std::uint32_t n = kFewest; n <= kMost; ++n) {
     if ((n - kFewest) % kRestart == 0) {
-      for (std::size_t i = 0; i < count; ++i) {
-        const double difference = pairs[i * kScouts].difference;
-        re[i] = static_cast<float>(std::cos(n * difference));
-        im[i] = static_cast<float>(std::sin(n * difference));
-        step_re[i] = static_cast<float>(std::cos(difference));
-        step_im[i] = static_cast<float>(std::sin(difference));
-      }
+      scouts.clear();
+      for (std::size_t i = 0; i < pairs.size(); i += kScouts)
+        scouts.add(n * pairs[i].difference, pairs[i].difference);
     }
-    float sums[4] = {};  // a single one would wait for itself
-    for (std::size_t i = 0; i < count; ++i) {
-      sums[i % 4] += re[i];
-      const float next = re[i] * step_re[i] - im[i] * step_im[i];
-      im[i] = re[i] * step_im[i] + im[i] * step_re[i];
-      re[i] = next;
-    }
-    const float sum = sums[0] + sums[1] + sums[2] + sums[3];
-    if (static_cast<double>(sum) < kHopeful * static_cast<double>(count)) continue;
+    const auto sum = static_cast<double>(scouts.sum_and_turn().real());
+    if (sum < kHopeful * static_cast<double>(scouts.size())) continue;
     double exact = 0;
     for (const Pair& pair : pairs) exact += std::cos(n * pair.difference);
     scores[n] = exact / static_cast<double>(pairs.size());
@@ -117,36 +104,23 @@ RowAzimuth fit_row_azimuth(const PolarPoints& polar, const std::vector<std::uint
   RowAzimuth fit;
   if (samples.size() < 4) return fit;
   // Coherence of the phases over all candidate offsets, by rotating each sample from one to the next.
-  std::vector<std::complex<float>> phasors;
-  std::vector<std::complex<float>> steps;
+  PhaseBank phases;
   float weights = 0;
   for (const Sample& s : samples) {
-    const double phase = n * (s.azimuth + kMostSideM * s.inverse);
-    phasors.emplace_back(static_cast<float>(std::cos(phase)) * s.weight,
-                         static_cast<float>(std::sin(phase)) * s.weight);
-    const double step = -n * kStepM * s.inverse;
-    steps.emplace_back(static_cast<float>(std::cos(step)), static_cast<float>(std::sin(step)));
+    phases.add(n * (s.azimuth + kMostSideM * s.inverse), -n * kStepM * s.inverse, s.weight);
     weights += s.weight;
   }
   const int candidates = static_cast<int>(2 * kMostSideM / kStepM) + 1;
   float most = -1;
   std::complex<float> mean;
   for (int c = 0; c < candidates; ++c) {
-    float re = 0;
-    float im = 0;
-    for (std::size_t k = 0; k < phasors.size(); ++k) {
-      const float a = phasors[k].real();
-      const float b = phasors[k].imag();
-      re += a;
-      im += b;
-      phasors[k] = {a * steps[k].real() - b * steps[k].imag(), a * steps[k].imag() + b * steps[k].real()};
-    }
+    const std::complex<float> sum = phases.sum_and_turn();
     // Without near points every offset looks alike: the smallest is taken.
     const float h = static_cast<float>(std::fabs(-kMostSideM + c * kStepM));
-    const float coherence = std::sqrt(re * re + im * im) / weights - 0.02F * h;
+    const float coherence = std::sqrt(std::norm(sum)) / weights - 0.02F * h;
     if (coherence > most) {
       most = coherence;
-      mean = {re, im};
+      mean = sum;
       fit.side_offset_m = -kMostSideM + c * kStepM;
     }
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sensor/phase_bank.h"
 #include "sensor/polar_points.h"
 #include "sensor/twist_equations.h"
 
@@ -40,7 +41,7 @@ YawPeak best_yaw(const SensorModel& model, const TwistSamples& samples, const Tw
   const PolarPoints polar = polar_points(samples.cloud, twist, 1);
   const double n = model.ticks_per_turn;
   const double step_rad = 1.5 / n;
-  std::vector<float> re, im, step_re, step_im;
+  PhaseBank phases;
   for (std::size_t i = 0; i < samples.size(); i += 2) {
     const double rho = polar.rho_m[i];
     if (rho < 4) continue;
@@ -49,27 +50,17 @@ YawPeak best_yaw(const SensorModel& model, const TwistSamples& samples, const Tw
     const double yaw_rad = twist.w_rad[2] - from_rad;
     const double phase =
         n * (azimuth - row.azimuth_rad - std::atan(row.side_offset_m / rho) - azimuth / kTurn * yaw_rad);
-    const double turn = n * azimuth / kTurn * step_rad;
-    re.push_back(static_cast<float>(std::cos(phase)));
-    im.push_back(static_cast<float>(std::sin(phase)));
-    step_re.push_back(static_cast<float>(std::cos(turn)));
-    step_im.push_back(static_cast<float>(std::sin(turn)));
+    phases.add(phase, n * azimuth / kTurn * step_rad);
   }
   YawPeak peak{twist.w_rad[2], 0};
-  if (re.empty()) return peak;
+  if (phases.size() == 0) return peak;
   float most = -1;
   const int steps = static_cast<int>((to_rad - from_rad) / step_rad);
   for (int k = 0; k <= steps; ++k) {
-    float sum = 0;
-    for (std::size_t i = 0; i < re.size(); ++i) {
-      sum += re[i];
-      const float next = re[i] * step_re[i] - im[i] * step_im[i];
-      im[i] = re[i] * step_im[i] + im[i] * step_re[i];
-      re[i] = next;
-    }
+    const float sum = phases.sum_and_turn().real();
     if (sum > most) {
       most = sum;
-      peak = {from_rad + k * step_rad, static_cast<double>(sum) / static_cast<double>(re.size())};
+      peak = {from_rad + k * step_rad, static_cast<double>(sum) / static_cast<double>(phases.size())};
     }
   }
   return peak;
