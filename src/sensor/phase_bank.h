@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <experimental/simd>
 #include <vector>
 
 namespace pointreel {
@@ -28,26 +29,23 @@ class PhaseBank {
 
   // The sum of all; then each takes its step. Floats drift: by 1e-4 in a thousand steps.
   std::complex<float> sum_and_turn() {
-    float re[kLanes] = {};
-    float im[kLanes] = {};
+    Floats re = 0;
+    Floats im = 0;
     for (Block& b : blocks_) {
-      for (std::size_t k = 0; k < kLanes; ++k) {
-        re[k] += b.re[k];
-        im[k] += b.im[k];
-        const float next = b.re[k] * b.step_re[k] - b.im[k] * b.step_im[k];
-        b.im[k] = b.re[k] * b.step_im[k] + b.im[k] * b.step_re[k];
-        b.re[k] = next;
-      }
+      re += b.re;
+      im += b.im;
+      const Floats next = b.re * b.step_re - b.im * b.step_im;
+      b.im = b.re * b.step_im + b.im * b.step_re;
+      b.re = next;
     }
-    std::complex<float> sum;
-    for (std::size_t k = 0; k < kLanes; ++k) sum += std::complex<float>(re[k], im[k]);
-    return sum;
+    return {std::experimental::reduce(re), std::experimental::reduce(im)};
   }
 
  private:
-  static constexpr std::size_t kLanes = 8;
+  using Floats = std::experimental::native_simd<float>;
+  static constexpr std::size_t kLanes = Floats::size();
   struct Block {
-    float re[kLanes] = {}, im[kLanes] = {}, step_re[kLanes] = {}, step_im[kLanes] = {};
+    Floats re = 0, im = 0, step_re = 0, step_im = 0;
   };
   std::vector<Block> blocks_;
   std::size_t size_ = 0;
