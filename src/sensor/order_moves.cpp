@@ -58,24 +58,45 @@ std::vector<std::uint32_t> order_breakers(std::span<const std::uint32_t> keys) {
   return breakers;
 }
 
-std::vector<OrderMove> find_moves(std::span<const std::uint32_t> expected,
-                                  std::span<const std::uint32_t> actual, std::size_t cells) {
-  // Where the lists begin or end alike, nothing moves.
+namespace {
+
+// Where the lists begin or end alike, nothing moves. Between: each actual element's place in the expected
+// list.
+struct Middle {
+  std::size_t first = 0;
+  std::vector<std::uint32_t> keys;
+};
+
+Middle differing_middle(std::span<const std::uint32_t> expected, std::span<const std::uint32_t> actual,
+                        std::size_t cells) {
   std::size_t first = 0;
   std::size_t last = actual.size();
   while (first < last && expected[first] == actual[first]) ++first;
   while (last > first && expected[last - 1] == actual[last - 1]) --last;
-  std::vector<OrderMove> moves;
-  if (first == last) return moves;
+  Middle middle{first, std::vector<std::uint32_t>(last - first)};
+  if (first == last) return middle;
   std::vector<std::uint32_t> place(cells, 0);
   for (std::size_t i = first; i < last; ++i) place[expected[i]] = static_cast<std::uint32_t>(i);
-  std::vector<std::uint32_t> keys(last - first);
-  for (std::size_t i = first; i < last; ++i) keys[i - first] = place[actual[i]];
-  for (const std::uint32_t i : order_breakers(keys))
-    moves.push_back({keys[i], static_cast<std::uint32_t>(first) + i});
+  for (std::size_t i = first; i < last; ++i) middle.keys[i - first] = place[actual[i]];
+  return middle;
+}
+
+}  // namespace
+
+std::vector<OrderMove> find_moves(std::span<const std::uint32_t> expected,
+                                  std::span<const std::uint32_t> actual, std::size_t cells) {
+  const Middle middle = differing_middle(expected, actual, cells);
+  std::vector<OrderMove> moves;
+  for (const std::uint32_t i : order_breakers(middle.keys))
+    moves.push_back({middle.keys[i], static_cast<std::uint32_t>(middle.first) + i});
   std::sort(moves.begin(), moves.end(),
             [](const OrderMove& a, const OrderMove& b) { return a.from < b.from; });
   return moves;
+}
+
+std::size_t count_moves(std::span<const std::uint32_t> expected, std::span<const std::uint32_t> actual,
+                        std::size_t cells) {
+  return order_breakers(differing_middle(expected, actual, cells).keys).size();
 }
 
 std::vector<std::uint32_t> apply_moves(std::span<const std::uint32_t> expected,

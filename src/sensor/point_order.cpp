@@ -310,7 +310,7 @@ PointOrder find_order(const SensorModel& model, const GriddedSweep& sweep,
     if (kind != OrderKind::column_major)
       grid.order.seam_tick = find_seam(model, grid, summary.ends, image.range_m);
     const auto expected = cells_in_order(image.occupied, image.range_m, model, grid);
-    const std::size_t moved = find_moves(expected, walk, image.occupied.size()).size();
+    const std::size_t moved = count_moves(expected, walk, image.occupied.size());
     if (moved >= fewest) continue;
     fewest = moved;
     best = grid.order;
