@@ -21,7 +21,7 @@ template <class Coder>
 bool code_band(Coder& mask_coder, Coder& range_coder, const RangeQuantiser& quantiser, const Band& band,
                GridImage& image, BandState& state) {
   HitMaskModel mask({band.first_row, band.rows, image.columns, image.rows}, {}, std::move(state.mask));
-  RangeModel ranges(band, image.columns, quantiser, state.ranges);
+  RangeModel<> ranges(band, image.columns, quantiser, state.ranges);
   for (int row = 0; row < band.rows; ++row) {
     const int image_row = band.first_row + row;
     mask.begin_row();

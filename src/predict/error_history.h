@@ -1,6 +1,7 @@
 // Squared errors of the experts at the cells of a row and of the two above it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -13,25 +14,25 @@ namespace pointreel {
 class ErrorHistory {
  public:
   explicit ErrorHistory(int columns) {
-    for (auto& row : rows_) row.resize(static_cast<std::size_t>(columns + 2 * CausalCanvas::kMargin));
+    for (std::size_t i = 0; i < kRows; ++i) {
+      storage_[i].resize(static_cast<std::size_t>(columns + 2 * CausalCanvas::kMargin) * kExperts);
+      rows_[i] = storage_[i].data() + CausalCanvas::kMargin * kExperts;
+    }
   }
-  void start_row() { newest_ = (newest_ + kRows - 1) % kRows; }
+  void start_row() { std::rotate(rows_.begin(), rows_.end() - 1, rows_.end()); }
 
-  // kExperts values; finite also where nothing was ever stored. Columns from -kMargin on.
-  float* at(int rows_back, int column) { return cell(rows_back, column).data(); }
-  const float* at(int rows_back, int column) const {
-    return const_cast<ErrorHistory*>(this)->cell(rows_back, column).data();
+  // kExperts values a cell; finite also where nothing was ever stored. Columns from -kMargin on.
+  float* at(std::size_t rows_back, int column) {
+    return rows_[rows_back] + column * static_cast<std::ptrdiff_t>(kExperts);
+  }
+  const float* at(std::size_t rows_back, int column) const {
+    return rows_[rows_back] + column * static_cast<std::ptrdiff_t>(kExperts);
   }
 
  private:
-  static constexpr int kRows = 3;
-  using Errors = std::array<float, kExperts>;
-  Errors& cell(int rows_back, int column) {
-    return rows_[static_cast<std::size_t>((newest_ + rows_back) % kRows)]
-                [static_cast<std::size_t>(column + CausalCanvas::kMargin)];
-  }
-  std::array<std::vector<Errors>, kRows> rows_;
-  int newest_ = 0;
+  static constexpr std::size_t kRows = 3;
+  std::array<std::vector<float>, kRows> storage_;
+  std::array<float*, kRows> rows_;  // the newest first
 };
 
 }  // namespace pointreel

@@ -9,6 +9,7 @@
 
 #include "predict/causal_canvas.h"
 #include "predict/local_fits-inl.h"
+#include "predict/range_config.h"
 #include "predict/range_state.h"
 #include "predict/row_memory.h"
 
@@ -26,6 +27,7 @@ alignas(64) inline constexpr float kFarthestShares[kExperts] = {kAny,     kFarth
 HWY_INLINE float inverted(float inverse_range) { return inverse_range > 1e-6F ? 1 / inverse_range : 0; }
 
 // One range per expert in metres, all positive. Lane 0 is left for the blend (mixture-inl.h).
+template <class Ingredients>
 HWY_INLINE Float16 propose_ranges(const CausalCanvas& canvas, std::size_t index, int column,
                                   const RowMemory& memory) {
   constexpr float kFirstGuessM = 10;  // where a band has no return yet
@@ -62,7 +64,16 @@ HWY_INLINE Float16 propose_ranges(const CausalCanvas& canvas, std::size_t index,
   const Float16 raw_m = with_lane<2>(with_lane<3>(with_lane<4>(load<16>(seen_m), inverted(fits.parallel)), inverted(fits.line)), inverted(fits.plane));
   const Mask<16> usable = (start * load<16>(kNearestShares) <= raw_m) & (raw_m <= start * load<16>(kFarthestShares)) &
                           (all<16>(CausalCanvas::kSmallestRangeM) <= raw_m);
-  return select(usable, raw_m, all<16>(start));
+  const Float16 proposals_m = select(usable, raw_m, all<16>(start));
+  if constexpr (Ingredients::kExpertsOff != 0) {
+    alignas(64) float left_m[kExperts];
+    store(proposals_m, left_m);
+    for (std::size_t k = 0; k < kExperts; ++k) {
+      if ((Ingredients::kExpertsOff >> k & 1) != 0) left_m[k] = start;
+    }
+    return load<16>(left_m);
+  }
+  return proposals_m;
 }
 
 }  // namespace HWY_NAMESPACE

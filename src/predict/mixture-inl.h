@@ -107,8 +107,10 @@ class Mixture {
   // probability by expert k and G+, G- at its borders:
   //   d log p / d log w_k = r_k - w_k,  r_k = w_k p_k / p
   //   d log p / d log (1/s_k) = r_k (z+ G'(z+) - z- G'(z-)) / p_k
+  template <class Ingredients>
   HWY_INLINE void learn(const Border& lower, const Border& upper, MixtureState& state) const {
-    constexpr float kWeightRate = 0.1F, kScaleRate = 0.08F;
+    constexpr float kWeightRate = Ingredients::kLearnsWeights ? 0.1F : 0.F;
+    constexpr float kScaleRate = Ingredients::kLearnsScales ? 0.08F : 0.F;
     const Float16 one = all<16>(1);
     const Float16& below = lower.signed_cdf;
     const Float16& above = upper.signed_cdf;

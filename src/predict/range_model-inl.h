@@ -21,6 +21,7 @@ HWY_BEFORE_NAMESPACE();
 namespace pointreel {
 namespace HWY_NAMESPACE {
 
+template <class Ingredients = AllIngredients>
 class RangeModel {
  public:
   RangeModel(const Band& band, int columns, const RangeQuantiser& quantiser, RangeModelState& state)
@@ -28,7 +29,7 @@ class RangeModel {
         on_lattice_(quantiser.on_lattice()),
         canvas_(band.rows, columns),
         errors_(columns),
-        steps_(static_cast<std::size_t>(band.rows + CausalCanvas::kRowsAbove) * canvas_.stride()),
+        steps_(static_cast<std::size_t>(band.rows + CausalCanvas::kRowsAbove) * canvas_.stride(), kNoSteps),
         state_(state) {}
 
   // Before the first cell of each row. `phase_m`: where the row's lattice has a point.
@@ -46,7 +47,7 @@ class RangeModel {
     constexpr float kUnknownSquaredSteps = 30;  // the experts' error where no neighbour is known
     const std::size_t index = canvas_.index(row_, column);
     const float step_m = step_m_;
-    const Float16 proposals_m = propose_ranges(canvas_, index, column, memory_);
+    const Float16 proposals_m = propose_ranges<Ingredients>(canvas_, index, column, memory_);
     const Float16 errors =
         recent_errors(errors_, canvas_, index, column, kUnknownSquaredSteps * step_m * step_m);
     const Mixture mixture(state_.mixture, proposals_m, errors, step_m);
@@ -58,8 +59,8 @@ class RangeModel {
     Mixture::Border lower, upper;
     const std::int32_t wanted = Coder::kDecodes ? 0 : rounded((range_m - origin_m) / step_m);
     const std::int32_t steps =
-        StepCoder<Coder>(coder, state_.steps, mixture, context, origin_m, step_m).code(wanted, lower, upper);
-    mixture.learn(lower, upper, state_.mixture);
+        StepCoder<Coder, Ingredients>(coder, state_.steps, mixture, context, origin_m, step_m).code(wanted, lower, upper);
+    mixture.learn<Ingredients>(lower, upper, state_.mixture);
 
     const float decoded_m = at_least_smallest(origin_m + static_cast<float>(steps) * step_m);
     store_errors(mixture.proposals_m(), decoded_m, errors_.at(0, column));
@@ -88,7 +89,7 @@ class RangeModel {
   CausalCanvas canvas_;
   RowMemory memory_;
   ErrorHistory errors_;
-  std::vector<std::int8_t> steps_;
+  std::vector<std::uint8_t> steps_;  // clipped
   RangeModelState& state_;
   int row_ = 0;
   float phase_m_ = 0;

@@ -28,9 +28,10 @@ HWY_INLINE Probability16 to_probability(float p) {
   return static_cast<Probability16>(scaled > kLeast ? (scaled < kMost ? scaled : kMost) : kLeast);
 }
 
-template <class Coder, std::size_t kModels>
+template <class Ingredients, class Coder, std::size_t kModels>
 HWY_INLINE bool code_mixed(Coder& coder, float p, CountedBit* const (&models)[kModels],
                            BitMixer<kModels + 1>& mixer, bool bit) {
+  if constexpr (!Ingredients::kSecondStage) return coder.code_with(bit, to_probability(p));
   constexpr std::uint32_t kSettledCount = 60;
   constexpr int kMixingRateShift = 16;
   typename BitMixer<kModels + 1>::Inputs inputs;
@@ -43,7 +44,7 @@ HWY_INLINE bool code_mixed(Coder& coder, float p, CountedBit* const (&models)[kM
   return bit;
 }
 
-template <class Coder>
+template <class Coder, class Ingredients>
 class StepCoder {
  public:
   HWY_INLINE StepCoder(Coder& coder, StepModels& models, const Mixture& mixture, const StepContext& at,
@@ -118,20 +119,20 @@ class StepCoder {
   }
 
   HWY_INLINE bool code_zero(float p, bool zero) {
-    return code_mixed(coder_, p,
+    return code_mixed<Ingredients>(coder_, p,
                       {&models_.zero_by_activity[at_.activity * StepModels::kErrors + at_.error],
                        &models_.zero_by_row[at_.row * 4 + at_.availability]},
                       models_.zero_mixers[at_.activity * 4 + at_.availability], zero);
   }
   HWY_INLINE bool code_sign(float p, bool down) {
-    return code_mixed(
+    return code_mixed<Ingredients>(
         coder_, p,
         {&models_.sign_by_signs[at_.signs], &models_.sign_by_row[at_.row * 4 + at_.availability]},
         models_.sign_mixers[at_.availability], down);
   }
   HWY_INLINE bool code_more(std::int32_t magnitude, float p, bool more) {
     const auto step = static_cast<std::size_t>(magnitude - 1);
-    return code_mixed(coder_, p, {&models_.more_by_error[at_.error * StepModels::kUnarySteps + step]},
+    return code_mixed<Ingredients>(coder_, p, {&models_.more_by_error[at_.error * StepModels::kUnarySteps + step]},
                       models_.more_mixers[step * 4 + at_.activity / 4], more);
   }
 
