@@ -10,8 +10,6 @@
 namespace pointreel {
 namespace {
 
-constexpr std::size_t kMostFields = 256;
-
 PointLayout layout_of(const CodedGeometry& geometry) {
   return PointLayout({geometry.rows, geometry.columns, geometry.cell_of_point, geometry.range_m});
 }
@@ -40,7 +38,7 @@ void encode_fields(const FieldSelection& selection, const PointCloud& cloud,
   std::vector<Chosen> chosen;
   for (const Field& field : cloud.fields) {
     const FieldStep* named = selection.find(field.name);
-    if ((named != nullptr || selection.all_others) && chosen.size() < kMostFields) {
+    if (named != nullptr || selection.all_others) {
       chosen.push_back({&field, named != nullptr ? named->step : 0, {}});
     }
   }

@@ -11,6 +11,8 @@
 
 namespace pointreel {
 
+inline constexpr std::size_t kMostFields = 256;  // of a sweep
+
 // Appends the chosen fields of `cloud`. `output_order`: index in `cloud` of each output point.
 void encode_fields(const FieldSelection& selection, const PointCloud& cloud,
                    std::span<const std::uint32_t> output_order, const CodedGeometry& geometry, int threads,

@@ -52,6 +52,11 @@ class MixtureEncoder final : public Encoder::Implementation {
       return Error{ErrorCode::resource_limit, "frame " + std::to_string(next_frame_) + " has " +
                                                   std::to_string(sweep.size()) + " points, more than 2^23"};
     }
+    if (sweep.fields.size() > kMostFields) {
+      return Error{ErrorCode::resource_limit, "frame " + std::to_string(next_frame_) + " has " +
+                                                  std::to_string(sweep.fields.size()) + " fields, more than " +
+                                                  std::to_string(kMostFields)};
+    }
     Packet packet;
     packet.frame = next_frame_;
     packet.points_in = static_cast<std::uint32_t>(sweep.size());

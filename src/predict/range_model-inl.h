@@ -77,7 +77,10 @@ class RangeModel {
   static float at_least_smallest(float range_m) {
     return range_m > CausalCanvas::kSmallestRangeM ? range_m : CausalCanvas::kSmallestRangeM;
   }
+  // To the nearest; damaged streams give ranges beyond any step.
   static std::int32_t rounded(float x) {
+    constexpr float kMost = 1 << 30;
+    x = x < -kMost ? -kMost : x > kMost ? kMost : x;
     return x < 0 ? -static_cast<std::int32_t>(0.5F - x) : static_cast<std::int32_t>(x + 0.5F);
   }
   float on_lattice(float range_m) const {
