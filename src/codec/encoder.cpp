@@ -1,3 +1,5 @@
+#include <string>
+
 #include "codec/method.h"
 #include "pointreel/codec.h"
 
@@ -21,18 +23,18 @@ const StreamHeader& Encoder::header() const {
 }
 
 Result<std::vector<Packet>> Encoder::encode(PointCloud sweep, const std::optional<Pose>& T_world_sensor) {
+  for (const Field& field : sweep.fields) {
+    if (field.size() != sweep.size()) {
+      return Error{ErrorCode::invalid_argument, "field " + field.name + " has " +
+                                                    std::to_string(field.size()) + " values for " +
+                                                    std::to_string(sweep.size()) + " points"};
+    }
+  }
   return implementation_->encode(std::move(sweep), T_world_sensor);
 }
 
 Result<std::vector<Packet>> Encoder::finish() {
   return implementation_->finish();
-}
-
-const FieldStep* FieldSelection::find(std::string_view name) const {
-  for (const FieldStep& field : named) {
-    if (field.name == name) return &field;
-  }
-  return nullptr;
 }
 
 }  // namespace pointreel

@@ -20,7 +20,7 @@ sources_of_decoding() {
   g++ -std=c++20 -I"$root/include" -I"$root/src" -I"$root/tests" -isystem /usr/include/eigen3 \
     "$root/tests/determinism/decode_digest.cpp" "$scratch/library.a" -lxxhash -lhwy -pthread -Wl,--trace \
     -o "$scratch/decode_digest" |
-    sed -nE 's|.*pointreel\.dir/(src/.*\.cpp)\.o\)?$|\1|p' | sort -u
+    sed -nE 's|.*pointreel\.dir/(\./)?(src/.*\.cpp)\.o$|\2|p' | sort -u
 }
 sources=$(sources_of_decoding)
 sources=tests/determinism/decode_digest.cpp\ ${sources//$'\n'/ }
