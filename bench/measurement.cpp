@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "base/parallel.h"
+#include "common/frame_totals.h"
 #include "common/packet_batches.h"
 #include "common/stopwatch.h"
 #include "pointreel/reel.h"
@@ -20,18 +21,9 @@ struct EncodedReel {
   double encode_ms = 0;  // of all sweeps
 };
 
-void add(FrameStatistics& sum, const FrameStatistics& frame) {
-  sum.occupancy_bits += frame.occupancy_bits;
-  sum.plane_bits += frame.plane_bits;
-  sum.residual_bits += frame.residual_bits;
-  sum.spatial_cells += frame.spatial_cells;
-  sum.temporal_cells += frame.temporal_cells;
-  sum.unfit_cells += frame.unfit_cells;
-  sum.runs += frame.runs;
-}
-
 EncodedReel encode_reel(const SweepSet& set, const Setting& setting) {
-  Encoder encoder = require(Encoder::create({Method::planes, setting.planes}, Runtime{setting.threads}));
+  Encoder encoder = require(Encoder::create(
+      {.method = Method::planes, .mixture = {}, .planes = setting.planes}, Runtime{setting.threads}));
   EncodedReel reel;
   ReelWriter writer = require(ReelWriter::create(reel.bytes, encoder.header()));
   const std::vector<Pose>& poses = set.poses_from(setting.motion);
@@ -100,7 +92,7 @@ Measurement measure(const SweepSet& set, const Setting& setting, std::size_t nea
   const auto sample = sampled_sweeps(set.sweeps.size(), nearest_sweeps);
   measurement.nearest_sweeps = sample.size();
   const auto compare = [&](const StreamHeader& header, const std::vector<DecodedSweep>& sweeps) {
-    measurement.range_bound_m = header.range_bound_m();
+    measurement.range_bound_m = header.bound_m();
     std::vector<std::optional<Result<SweepQuality>>> qualities(sweeps.size());
     // Not part of any timing, so on all processors whatever the setting says.
     parallel_for(sweeps.size(), resolve_threads(0), [&](std::size_t i) {

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Compresses a simulated drive, verifies every point and draws one sweep before and after. Needs a release build.
+# Compresses a simulated drive by both methods, verifies every point and draws one sweep before and after. Needs a
+# release build.
 set -euo pipefail
 cd "$(dirname "$(realpath "${BASH_SOURCE[0]}")")/.."
 
@@ -9,12 +10,19 @@ rm -rf "$out"
 mkdir -p "$out"
 
 "$pointreel" simulate -o "$out/drive" --frames 20
-"$pointreel" encode "$out/drive" -o "$out/drive.reel" --threshold 10cm --poses "$out/drive/poses.txt"
-"$pointreel" verify "$out/drive.reel" "$out/drive"
-"$pointreel" decode "$out/drive.reel" -o "$out/decoded"
-
 original=$(find "$out/drive" -name '*.bin' | sort | sed -n 10p)
-decoded=$(find "$out/decoded" -name '*.bin' | sort | sed -n 10p)
-# Debian's Python is the one that `./dev demo` gave NumPy, SciPy and Matplotlib to.
-/usr/bin/python3 examples/demo_picture.py "$original" "$decoded" "$out/range_image.png"
-echo "picture: $out/range_image.png"
+
+# show METHOD OPTIONS...: there and back, with a picture.
+show() {
+  local method=$1
+  echo
+  echo "== method $method"
+  "$pointreel" encode "$out/drive" -o "$out/$method.reel" --method "$method" "${@:2}"
+  "$pointreel" verify "$out/$method.reel" "$out/drive"
+  "$pointreel" decode "$out/$method.reel" -o "$out/$method"
+  # Debian's Python is the one that `./dev demo` gave NumPy, SciPy and Matplotlib to.
+  /usr/bin/python3 examples/demo_picture.py "$original" "$(find "$out/$method" -name '*.bin' | sort | sed -n 10p)" \
+    "$out/$method.png"
+}
+show mixture --max-error 2cm
+show planes --threshold 10cm --poses "$out/drive/poses.txt"

@@ -173,6 +173,7 @@ struct DecodedSweep {
   PointCloud cloud;                      // the sweep's own sensor coordinates
   Pose T_key_sensor = Pose::Identity();  // `planes`: the motion that was undone (predicted frames)
   bool order_kept = false;               // the points come in the order of the input
+  std::uint64_t field_bytes = 0;         // of the packet's payload: what the fields took
 };
 
 class Decoder {

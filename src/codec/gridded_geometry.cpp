@@ -51,17 +51,13 @@ struct DecodedCells {
   }
 };
 
-std::vector<Point3f> positions_of(const RayTable& rays, std::span<const std::uint32_t> cells,
-                                  std::span<const float> range_of_cell_m, int threads) {
-  std::vector<Point3f> positions(cells.size());
-  constexpr std::size_t kChunk = 4096;
-  const std::size_t columns = std::max<std::size_t>(rays.column_count(), 1);
-  parallel_for((cells.size() + kChunk - 1) / kChunk, threads, [&](std::size_t chunk) {
-    const std::size_t end = std::min(cells.size(), (chunk + 1) * kChunk);
-    for (std::size_t i = chunk * kChunk; i < end; ++i) {
-      const std::size_t cell = cells[i];
-      positions[i] = rays.position(cell / columns, cell % columns, range_of_cell_m[cell]);
-    }
+// One position a cell of the sensor grid; those of empty cells mean nothing.
+std::vector<Point3f> positions_of_cells(const RayTable& rays, std::span<const float> range_of_cell_m, int threads) {
+  std::vector<Point3f> positions(range_of_cell_m.size());
+  const std::size_t columns = rays.column_count();
+  parallel_for(rays.row_count(), threads, [&](std::size_t row) {
+    rays.positions_of_row(row, range_of_cell_m.subspan(row * columns, columns),
+                          std::span(positions).subspan(row * columns, columns));
   });
   return positions;
 }
@@ -155,15 +151,16 @@ EncodedGeometry encode_gridded(const SensorModel& model, const PointCloud& cloud
     moves = encode_moves(find_moves(cells, actual, decoded.occupied.size()));
     cells = std::move(actual);
   }
-  const auto positions = positions_of(RayTable(model, sweep.grid), cells, decoded.range_m, threads);
+  const auto positions = positions_of_cells(RayTable(model, sweep.grid), decoded.range_m, threads);
 
   // Verify each, in space and in float32.
   const CorrectionSteps steps(max_error_m);
   std::vector<Correction> corrections;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Point3f& original = cloud.positions[point_of_cell[cells[i]]];
-    if (distance_m(positions[i], original) > max_error_m) {
-      corrections.push_back(steps.between(static_cast<std::uint32_t>(i), positions[i], original));
+    const Point3f& decoded_position = positions[cells[i]];
+    if (distance_m(decoded_position, original) > max_error_m) {
+      corrections.push_back(steps.between(static_cast<std::uint32_t>(i), decoded_position, original));
     }
   }
 
@@ -232,12 +229,13 @@ Result<DecodedGeometry> decode_gridded(const SensorModel& model, std::size_t poi
   const auto moves = decode_moves(cells.size(), get_section(reader));
   if (!moves) return moves.error();
   if (!moves->empty()) cells = apply_moves(cells, *moves);
-  auto positions = positions_of(RayTable(model, *grid), cells, decoded.range_m, threads);
+  auto positions = positions_of_cells(RayTable(model, *grid), decoded.range_m, threads);
   const auto corrections = decode_corrections(get_section(reader), cells.size());
   if (!corrections) return corrections.error();
   const CorrectionSteps steps(max_error_m);
   for (const Correction& correction : *corrections) {
-    positions[correction.index] = steps.apply(positions[correction.index], correction);
+    Point3f& position = positions[cells[correction.index]];
+    position = steps.apply(position, correction);
   }
 
   const auto stray_bytes = get_section(reader);
@@ -262,7 +260,7 @@ Result<DecodedGeometry> decode_gridded(const SensorModel& model, std::size_t poi
   std::size_t next_cell = 0, next_stray = 0;
   for (std::size_t i = 0; i < points_out; ++i) {
     const bool stray = result.geometry.cell_of_point[i] < 0;
-    result.positions.push_back(stray ? strays[next_stray++].position : positions[next_cell++]);
+    result.positions.push_back(stray ? strays[next_stray++].position : positions[cells[next_cell++]]);
   }
   return result;
 }

@@ -61,6 +61,10 @@ class MixtureDecoder final : public Decoder::Implementation {
                         ? decode_scattered_sweep(packet, reader)
                         : decode_gridded(model_, packet.points_out, header_.max_error_m, threads_, reader);
     if (!geometry) return geometry.error();
+    const std::size_t field_bytes = ByteReader(reader).rest().size();  // a copy: rest() takes them
+    for (const Point3f& position : geometry->positions) {
+      if (!is_finite(position)) return Error{ErrorCode::corrupt, "it holds a position that is not finite"};
+    }
     auto fields = decode_fields(geometry->geometry, threads_, reader);
     if (!fields) return fields.error();
     if (!reader.rest().empty()) return Error{ErrorCode::corrupt, "bytes follow its fields"};
@@ -69,6 +73,7 @@ class MixtureDecoder final : public Decoder::Implementation {
     sweep.cloud.positions = std::move(geometry->positions);
     sweep.cloud.fields = *std::move(fields);
     sweep.order_kept = geometry->geometry.order_kept;
+    sweep.field_bytes = field_bytes;
     return sweep;
   }
 

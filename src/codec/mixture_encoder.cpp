@@ -89,17 +89,30 @@ class MixtureEncoder final : public Encoder::Implementation {
   static constexpr double kLeastDeviationM = 0.05;  // of points on the grid from their rays
   static constexpr double kMostStrays = 0.3;        // of the points; with more, the octree is cheaper
 
-  // None when the sweep is not that of a sensor whose grid is known.
+  // None when the sweep is not that of a sensor whose grid is known. Within a group the model stays as it was
+  // sent, while the estimate gets better.
   std::optional<GriddedSweep> on_grid(const PointCloud& cloud) {
     if (cloud.positions.empty()) return std::nullopt;
-    estimator_.add(cloud);
-    if (!estimator_.model()) return std::nullopt;
-    // Within a group the model stays as it was sent.
-    if (!model_frame_ || model_age_ >= header_.group) model_ = estimator_.model();
-    auto sweep = project(*model_, cloud, grid_options_);
+    if (!model_frame_ || model_age_ >= header_.group) {
+      if (!estimator_.model()) estimator_.add(cloud);
+      if (!estimator_.model()) return std::nullopt;
+      model_ = useful_part(*estimator_.model());
+    }
+    auto sweep = project(*model_, cloud, grid_options_, last_grid_ ? &*last_grid_ : nullptr);
     const auto strays = std::count(sweep.cell_of_point.begin(), sweep.cell_of_point.end(), -1);
     if (static_cast<double>(strays) > kMostStrays * static_cast<double>(cloud.size())) return std::nullopt;
+    estimator_.add(cloud, &sweep);
+    last_grid_ = sweep.grid;
     return sweep;
+  }
+
+  // The range lattice only helps bounds about as fine as itself.
+  SensorModel useful_part(SensorModel model) const {
+    if (model.range_step_m > 3 * header_.max_error_m || model.range_step_m < 1.5 * header_.max_error_m) {
+      model.range_step_m = 0;
+      model.range_phase.clear();
+    }
+    return model;
   }
 
   void put_model(ByteWriter& writer, FrameStatistics& statistics) {
@@ -131,6 +144,7 @@ class MixtureEncoder final : public Encoder::Implementation {
   SensorEstimator estimator_;
   std::optional<SensorModel> model_;           // of this group
   std::optional<std::uint32_t> model_frame_;   // the frame that brought it
+  std::optional<SweepGrid> last_grid_;         // of the sweep before
   int model_age_ = 0;                          // sweeps coded with it
   std::uint32_t next_frame_ = 0;
   std::uint32_t next_group_ = 0;

@@ -16,23 +16,32 @@ constexpr double kHairRad = 1e-3;
 
 std::optional<FiringOrder> find_firing_order(const std::vector<double>& azimuth_rad,
                                              const std::vector<std::int16_t>& rows) {
+  // Rows alone tell most clouds that are not.
+  std::size_t steps = 0;
+  std::size_t same_row = 0;
+  std::int16_t row_before = -1;
+  for (const std::int16_t row : rows) {
+    if (row < 0) continue;
+    ++steps;
+    same_row += row == row_before ? 1 : 0;
+    row_before = row;
+  }
+  if (steps < 32 || same_row * 2 > steps) return {};
   FiringOrder order;
   order.azimuth_rad.assign(azimuth_rad.size(), 0);
-  std::size_t steps = 0;
   std::size_t small = 0;
-  std::size_t same_row = 0;
   double place = 0;  // follows the rotation, slowly enough not to be led astray by single points
   double lowest = 0;
   double highest = 0;
   double first = 0;
   double last = 0;
-  std::int16_t row_before = -1;
+  bool any = false;
   for (std::size_t i = 0; i < azimuth_rad.size(); ++i) {
     if (rows[i] < 0) continue;
-    if (row_before < 0) place = lowest = highest = first = azimuth_rad[i];
+    if (!any) place = lowest = highest = first = azimuth_rad[i];
     const double step = std::remainder(azimuth_rad[i] - place, kTurn);
     order.azimuth_rad[i] = place + step;
-    ++steps;
+    any = true;
     if (std::fabs(step) < kSmallStepRad) {
       ++small;
       lowest = std::min(lowest, order.azimuth_rad[i]);
@@ -40,10 +49,8 @@ std::optional<FiringOrder> find_firing_order(const std::vector<double>& azimuth_
       last = order.azimuth_rad[i];
     }
     place += std::clamp(step, -kSmallStepRad, kSmallStepRad) / 4;
-    if (rows[i] == row_before) ++same_row;
-    row_before = rows[i];
   }
-  if (steps < 32 || small * 20 < steps * 19 || same_row * 2 > steps) return {};
+  if (small * 20 < steps * 19) return {};
   const double span = highest - lowest;
   // A scan that stays within a part of the turn can be in this order, too, but only if it goes one way.
   if (span >= 1.95 * kTurn || std::fabs(last - first) < 0.8 * span) return {};

@@ -25,20 +25,25 @@ OrderMove code_move(Coder& coder, MoveModels& models, std::int64_t last_from, co
 
 std::vector<std::uint32_t> order_breakers(std::span<const std::uint32_t> keys) {
   const auto count = static_cast<std::uint32_t>(keys.size());
-  std::vector<std::uint32_t> tails;  // last element of the best subsequence of each length
-  std::vector<std::uint32_t> before(keys.size(), count);
+  // Last element of the best subsequence of each length, and its key.
+  std::vector<std::uint32_t> tails;
+  std::vector<std::uint32_t> tail_keys;
+  tails.reserve(keys.size());
+  tail_keys.reserve(keys.size());
+  std::vector<std::uint32_t> before(keys.size());
   for (std::uint32_t i = 0; i < count; ++i) {
-    auto place = tails.end();
-    if (!tails.empty() && keys[tails.back()] >= keys[i]) {
-      place = std::lower_bound(tails.begin(), tails.end(), keys[i],
-                               [&](std::uint32_t tail, std::uint32_t key) { return keys[tail] < key; });
-    }
-    if (place != tails.begin()) before[i] = *(place - 1);
-    if (place == tails.end()) {
+    const std::uint32_t key = keys[i];
+    if (tails.empty() || tail_keys.back() < key) {
+      before[i] = tails.empty() ? count : tails.back();
       tails.push_back(i);
-    } else {
-      *place = i;
+      tail_keys.push_back(key);
+      continue;
     }
+    const auto place = static_cast<std::size_t>(std::lower_bound(tail_keys.begin(), tail_keys.end(), key) -
+                                                tail_keys.begin());
+    before[i] = place == 0 ? count : tails[place - 1];
+    tails[place] = i;
+    tail_keys[place] = key;
   }
   std::vector<std::uint32_t> breakers;
   std::uint32_t kept = tails.empty() ? count : tails.back();
@@ -53,17 +58,45 @@ std::vector<std::uint32_t> order_breakers(std::span<const std::uint32_t> keys) {
   return breakers;
 }
 
+namespace {
+
+// Where the lists begin or end alike, nothing moves. Between: each actual element's place in the expected
+// list.
+struct Middle {
+  std::size_t first = 0;
+  std::vector<std::uint32_t> keys;
+};
+
+Middle differing_middle(std::span<const std::uint32_t> expected, std::span<const std::uint32_t> actual,
+                        std::size_t cells) {
+  std::size_t first = 0;
+  std::size_t last = actual.size();
+  while (first < last && expected[first] == actual[first]) ++first;
+  while (last > first && expected[last - 1] == actual[last - 1]) --last;
+  Middle middle{first, std::vector<std::uint32_t>(last - first)};
+  if (first == last) return middle;
+  std::vector<std::uint32_t> place(cells, 0);
+  for (std::size_t i = first; i < last; ++i) place[expected[i]] = static_cast<std::uint32_t>(i);
+  for (std::size_t i = first; i < last; ++i) middle.keys[i - first] = place[actual[i]];
+  return middle;
+}
+
+}  // namespace
+
 std::vector<OrderMove> find_moves(std::span<const std::uint32_t> expected,
                                   std::span<const std::uint32_t> actual, std::size_t cells) {
-  std::vector<std::uint32_t> place(cells, 0);
-  for (std::size_t i = 0; i < expected.size(); ++i) place[expected[i]] = static_cast<std::uint32_t>(i);
-  std::vector<std::uint32_t> keys(actual.size());
-  for (std::size_t i = 0; i < actual.size(); ++i) keys[i] = place[actual[i]];
+  const Middle middle = differing_middle(expected, actual, cells);
   std::vector<OrderMove> moves;
-  for (const std::uint32_t i : order_breakers(keys)) moves.push_back({keys[i], i});
+  for (const std::uint32_t i : order_breakers(middle.keys))
+    moves.push_back({middle.keys[i], static_cast<std::uint32_t>(middle.first) + i});
   std::sort(moves.begin(), moves.end(),
             [](const OrderMove& a, const OrderMove& b) { return a.from < b.from; });
   return moves;
+}
+
+std::size_t count_moves(std::span<const std::uint32_t> expected, std::span<const std::uint32_t> actual,
+                        std::size_t cells) {
+  return order_breakers(differing_middle(expected, actual, cells).keys).size();
 }
 
 std::vector<std::uint32_t> apply_moves(std::span<const std::uint32_t> expected,

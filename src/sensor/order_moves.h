@@ -23,6 +23,8 @@ std::vector<std::uint32_t> order_breakers(std::span<const std::uint32_t> keys);
 // The fewest moves, by ascending `from`. Both lists hold the same cells, each below `cells` and once.
 std::vector<OrderMove> find_moves(std::span<const std::uint32_t> expected,
                                   std::span<const std::uint32_t> actual, std::size_t cells);
+std::size_t count_moves(std::span<const std::uint32_t> expected, std::span<const std::uint32_t> actual,
+                        std::size_t cells);
 // The actual list. The moves must be those of find_moves or of decode_moves for a list of this size.
 std::vector<std::uint32_t> apply_moves(std::span<const std::uint32_t> expected,
                                        std::span<const OrderMove> moves);

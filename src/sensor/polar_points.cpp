@@ -1,41 +1,60 @@
 #include "sensor/polar_points.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "base/parallel.h"
 #include "base/trigonometry.h"
 
 namespace pointreel {
 
-// Two rounds from the azimuth of p leave an error of (v / 2 pi rho)^2 of the shift, a third removes it.
-Point3f as_measured(const Point3f& p, const Twist& twist) {
-  const auto& v = twist.v_m;
+namespace {
+
+// q = R(s w) p + s v, with s from the azimuth of q itself. Two rounds from the azimuth of p leave an error of
+// (v / 2 pi rho)^2 of the shift, a third removes it. Float: micrometres, 80 m away.
+void undo_motion(const Twist& twist, std::span<float> xs, std::span<float> ys, std::span<float> zs) {
   const auto& w = twist.w_rad;
   const double angle = std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
   const double k = angle > 0 ? 1 / angle : 0;
-  const double a[3] = {w[0] * k, w[1] * k, w[2] * k};
-  const double x = p.x;
-  const double y = p.y;
-  const double z = p.z;
-  const double along = a[0] * x + a[1] * y + a[2] * z;
-  double qx = x;
-  double qy = y;
-  double qz = z;
-  for (int round = 0; round < 3; ++round) {
-    const double s =
-        static_cast<double>(fast_atan2(static_cast<float>(qy), static_cast<float>(qx))) / (2 * kPi);
-    const double t = s * angle;  // below pi for any sane sweep
-    const double t2 = t * t;
-    const double sine = t * (1 - t2 * (1.0 / 6) * (1 - t2 * (1.0 / 20) * (1 - t2 * (1.0 / 42))));
-    const double versine = t2 * 0.5 * (1 - t2 * (1.0 / 12) * (1 - t2 * (1.0 / 30) * (1 - t2 * (1.0 / 56))));
-    const double cosine = 1 - versine;
-    qx = cosine * x + sine * (a[1] * z - a[2] * y) + versine * along * a[0] + s * v[0];
-    qy = cosine * y + sine * (a[2] * x - a[0] * z) + versine * along * a[1] + s * v[1];
-    qz = cosine * z + sine * (a[0] * y - a[1] * x) + versine * along * a[2] + s * v[2];
+  const auto ax = static_cast<float>(w[0] * k);
+  const auto ay = static_cast<float>(w[1] * k);
+  const auto az = static_cast<float>(w[2] * k);
+  const auto vx = static_cast<float>(twist.v_m[0]);
+  const auto vy = static_cast<float>(twist.v_m[1]);
+  const auto vz = static_cast<float>(twist.v_m[2]);
+  const auto angle_rad = static_cast<float>(angle);
+  constexpr auto kTurnsPerRad = static_cast<float>(1 / (2 * kPi));
+  float* px = xs.data();
+  float* py = ys.data();
+  float* pz = zs.data();
+  for (std::size_t i = 0; i < xs.size(); ++i) {
+    const float x = px[i];
+    const float y = py[i];
+    const float z = pz[i];
+    const float along = ax * x + ay * y + az * z;
+    float qx = x;
+    float qy = y;
+    float qz = z;
+    for (int round = 0; round < 3; ++round) {
+      const float s = fast_atan2(qy, qx) * kTurnsPerRad;
+      const float t = s * angle_rad;  // below pi for any sane sweep
+      const float t2 = t * t;
+      const float sine = t * (1 - t2 * (1.0F / 6) * (1 - t2 * (1.0F / 20) * (1 - t2 * (1.0F / 42))));
+      const float versine =
+          t2 * 0.5F * (1 - t2 * (1.0F / 12) * (1 - t2 * (1.0F / 30) * (1 - t2 * (1.0F / 56))));
+      qx = x + (sine * (ay * z - az * y) + versine * (along * ax - x) + s * vx);
+      qy = y + (sine * (az * x - ax * z) + versine * (along * ay - y) + s * vy);
+      qz = z + (sine * (ax * y - ay * x) + versine * (along * az - z) + s * vz);
+    }
+    px[i] = qx;
+    py[i] = qy;
+    pz[i] = qz;
   }
-  return {static_cast<float>(qx), static_cast<float>(qy), static_cast<float>(qz)};
 }
+
+}  // namespace
 
 PolarPoints polar_points(const PointCloud& cloud, const std::optional<Twist>& motion, int threads) {
   const std::size_t count = cloud.size();
@@ -46,19 +65,30 @@ PolarPoints polar_points(const PointCloud& cloud, const std::optional<Twist>& mo
   const std::size_t pieces = (count + kPiecePoints - 1) / kPiecePoints;
   parallel_for(pieces, threads, [&](std::size_t piece) {
     const std::size_t last = std::min(count, (piece + 1) * kPiecePoints);
-    const auto convert = [&](std::size_t i, const Point3f& q) {
-      const float rho = std::sqrt(q.x * q.x + q.y * q.y);
-      // False for NaN.
-      const bool usable = rho >= kLeastRhoM && rho <= kMostRhoM && std::fabs(q.z) <= kMostRhoM;
-      polar.rho_m[i] = usable ? rho : 0.0F;
-      polar.azimuth_rad[i] = usable ? fast_atan2(q.y, q.x) : 0.0F;
-      polar.z_m[i] = usable ? q.z : 0.0F;
-    };
-    if (motion) {
-      for (std::size_t i = piece * kPiecePoints; i < last; ++i)
-        convert(i, as_measured(cloud.positions[i], *motion));
-    } else {
-      for (std::size_t i = piece * kPiecePoints; i < last; ++i) convert(i, cloud.positions[i]);
+    // In blocks of separate coordinates, so that the loops become SIMD code.
+    constexpr std::size_t kBlock = 256;
+    std::array<float, kBlock> x, y, z;
+    for (std::size_t first = piece * kPiecePoints; first < last; first += kBlock) {
+      const std::size_t block = std::min(kBlock, last - first);
+      for (std::size_t k = 0; k < block; ++k) {
+        x[k] = cloud.positions[first + k].x;
+        y[k] = cloud.positions[first + k].y;
+        z[k] = cloud.positions[first + k].z;
+      }
+      if (motion)
+        undo_motion(*motion, std::span(x).first(block), std::span(y).first(block), std::span(z).first(block));
+      float* rhos_m = &polar.rho_m[first];
+      float* azimuths_rad = &polar.azimuth_rad[first];
+      float* zs_m = &polar.z_m[first];
+      for (std::size_t k = 0; k < block; ++k) {
+        const float rho = std::sqrt(x[k] * x[k] + y[k] * y[k]);
+        // False for NaN.
+        const bool usable = (rho >= kLeastRhoM) & (rho <= kMostRhoM) & (std::fabs(z[k]) <= kMostRhoM);
+        rhos_m[k] = usable ? rho : 0.0F;
+        zs_m[k] = usable ? z[k] : 0.0F;
+        const float azimuth = fast_atan2(y[k], x[k]);
+        azimuths_rad[k] = usable ? azimuth : 0.0F;
+      }
     }
   });
   return polar;

@@ -21,9 +21,7 @@ struct PolarPoints {
 inline constexpr float kLeastRhoM = 1e-3F;  // nearer to the axis there is no direction to speak of
 inline constexpr float kMostRhoM = 1e5F;    // farther away float32 has no centimetres
 
-// q = R(s w) p + s v, with s from the azimuth of q itself.
-Point3f as_measured(const Point3f& p, const Twist& twist);
-
+// Under the motion that the cloud was compensated for, if there is one.
 PolarPoints polar_points(const PointCloud& cloud, const std::optional<Twist>& motion, int threads);
 
 inline constexpr std::size_t kPiecePoints = 8192;

@@ -28,23 +28,26 @@ void make_stray(GriddedSweep& sweep, std::size_t i, StrayReason reason) {
 }
 
 // Range along the cell's ray and distance from it.
-void measure(const SensorModel& model, const PolarPoints& polar, const std::vector<std::int16_t>& rows,
-             const std::vector<double>& azimuths, const SweepColumns& columns, const GridOptions& options,
-             GriddedSweep& sweep) {
+void measure(const SensorModel& model, const PointCloud& cloud, const PolarPoints& polar,
+             const std::vector<std::int16_t>& rows, const std::vector<double>& azimuths,
+             const SweepColumns& columns, const GridOptions& options, GriddedSweep& sweep) {
   const std::size_t count = polar.size();
   const double rad_per_tick = kTurn / columns.ticks_per_turn;
-  std::vector<double> cosines(model.rows.size());
-  for (std::size_t r = 0; r < cosines.size(); ++r)
-    cosines[r] = 1 / std::sqrt(1 + model.rows[r].slope * model.rows[r].slope);
+  std::vector<double> column_rad;
+  for (const std::uint32_t tick : columns.tick)
+    column_rad.push_back(tick % columns.ticks_per_turn * rad_per_tick);
+  std::vector<double> cosines;
+  for (const RowModel& row : model.rows) cosines.push_back(1 / std::sqrt(1 + row.slope * row.slope));
+  const auto column_count = static_cast<std::int32_t>(columns.tick.size());
+  const double most_m = options.max_deviation_m;
   parallel_for((count + kPiecePoints - 1) / kPiecePoints, options.threads, [&](std::size_t piece) {
     const std::size_t last = std::min(count, (piece + 1) * kPiecePoints);
     for (std::size_t i = piece * kPiecePoints; i < last; ++i) {
-      if (!polar.has_ray(i)) {
-        make_stray(sweep, i, StrayReason::no_ray);
-        continue;
-      }
       if (rows[i] < 0) {
-        make_stray(sweep, i, StrayReason::off_row);
+        const StrayReason reason = polar.has_ray(i)                ? StrayReason::off_row
+                                   : is_finite(cloud.positions[i]) ? StrayReason::no_ray
+                                                                   : StrayReason::non_finite;
+        make_stray(sweep, i, reason);
         continue;
       }
       const auto r = static_cast<std::size_t>(rows[i]);
@@ -53,7 +56,7 @@ void measure(const SensorModel& model, const PolarPoints& polar, const std::vect
       const double above = polar.z_m[i] - row.offset_m;
       const double range = (rho + row.slope * above) * cosines[r];
       const double vertical = (above - row.slope * rho) * cosines[r];
-      if (!(range > 0) || std::fabs(vertical) > options.max_deviation_m) {
+      if (!(range > 0) || std::fabs(vertical) > most_m) {
         make_stray(sweep, i, StrayReason::off_row);
         continue;
       }
@@ -62,18 +65,17 @@ void measure(const SensorModel& model, const PolarPoints& polar, const std::vect
         make_stray(sweep, i, StrayReason::off_column);
         continue;
       }
-      const std::uint32_t tick = columns.tick[static_cast<std::size_t>(column)] % columns.ticks_per_turn;
-      double turn = azimuths[i] - tick * rad_per_tick;
+      double turn = azimuths[i] - column_rad[static_cast<std::size_t>(column)];
       if (std::fabs(turn) > 1) turn = std::remainder(turn, kTurn);
       const double across = rho * turn;
-      const double deviation = std::sqrt(across * across + vertical * vertical);
-      if (deviation > options.max_deviation_m) {
+      const double squared = across * across + vertical * vertical;
+      if (squared > most_m * most_m) {
         make_stray(sweep, i, StrayReason::off_column);
         continue;
       }
-      sweep.cell_of_point[i] = rows[i] * static_cast<std::int32_t>(columns.tick.size()) + column;
+      sweep.cell_of_point[i] = rows[i] * column_count + column;
       sweep.range_m[i] = static_cast<float>(range);
-      sweep.deviation_m[i] = static_cast<float>(deviation);
+      sweep.deviation_m[i] = std::sqrt(static_cast<float>(squared));
     }
   });
 }
@@ -121,7 +123,8 @@ void resolve_collisions(std::size_t cells, GriddedSweep& sweep) {
 
 }  // namespace
 
-GriddedSweep project(const SensorModel& model, const PointCloud& cloud, const GridOptions& options) {
+GriddedSweep project(const SensorModel& model, const PointCloud& cloud, const GridOptions& options,
+                     const SweepGrid* previous) {
   const std::size_t count = cloud.size();
   GriddedSweep sweep;
   sweep.cell_of_point.resize(count);
@@ -132,7 +135,7 @@ GriddedSweep project(const SensorModel& model, const PointCloud& cloud, const Gr
   PolarPoints polar = polar_points(cloud, {}, options.threads);
   auto rows = assign_rows(model, cloud, polar, options.threads);
   if (model.motion_compensated) {
-    sweep.grid.motion = find_twist(model, cloud, rows);
+    sweep.grid.motion = find_twist(model, cloud, rows, previous != nullptr ? previous->motion : std::nullopt);
     polar = polar_points(cloud, sweep.grid.motion, options.threads);
   }
   settle_rows(model, polar, rows);
@@ -146,11 +149,8 @@ GriddedSweep project(const SensorModel& model, const PointCloud& cloud, const Gr
       find_columns(model, polar, rows, azimuths, firing_descending.has_value(), options);
   sweep.grid.ticks_per_turn = columns.ticks_per_turn;
   sweep.grid.column_tick = columns.tick;
-  measure(model, polar, rows, azimuths, columns, options, sweep);
+  measure(model, cloud, polar, rows, azimuths, columns, options, sweep);
   if (sweep.grid.motion) check_compensation(model, cloud, polar, options, sweep);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!is_finite(cloud.positions[i])) sweep.stray_reason[i] = StrayReason::non_finite;
-  }
   resolve_collisions(model.rows.size() * columns.tick.size(), sweep);
   sweep.grid.order = find_order(model, sweep, firing_descending);
   return sweep;

@@ -16,7 +16,8 @@ struct GridOptions {
 
 // Every point that is no stray has a cell of its own, and cells_in_order() of those cells gives these points
 // in the order of the cloud (unless the order is none). Any cloud will do; one that does not fit becomes
-// strays.
-GriddedSweep project(const SensorModel& model, const PointCloud& cloud, const GridOptions& options = {});
+// strays. `previous`: the grid of the sweep before, if known; it saves time where this one is much alike.
+GriddedSweep project(const SensorModel& model, const PointCloud& cloud, const GridOptions& options = {},
+                     const SweepGrid* previous = nullptr);
 
 }  // namespace pointreel

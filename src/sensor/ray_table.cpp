@@ -1,6 +1,7 @@
 #include "sensor/ray_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/trigonometry.h"
@@ -13,14 +14,26 @@ double column_azimuth_rad(const SweepGrid& grid, std::size_t column) {
   return static_cast<double>(tick) / grid.ticks_per_turn * (2 * kPi);
 }
 
+constexpr double kSmallTurnRad = 1;  // turns up to half of this
+
+// Azimuth in (-3 pi, 5 pi) as a part of a turn in (-1/2, 1/2].
+inline double turns_from_front(double azimuth_rad) {
+  azimuth_rad -= azimuth_rad > kPi ? 2 * kPi : 0.0;
+  azimuth_rad -= azimuth_rad > kPi ? 2 * kPi : 0.0;
+  azimuth_rad += azimuth_rad <= -kPi ? 2 * kPi : 0.0;
+  return azimuth_rad * (1 / (2 * kPi));
+}
+
 }  // namespace
 
 RayTable::RayTable(const SensorModel& model, const SweepGrid& grid) {
   rows_.reserve(model.rows.size());
   for (const RowModel& row : model.rows) {
     const SinCos azimuth = sin_cos(row.azimuth_rad);
-    rows_.push_back({1 / std::sqrt(1 + row.slope * row.slope), row.slope, row.offset_m, row.side_offset_m,
-                     azimuth.sin, azimuth.cos, row.azimuth_rad});
+    const double cos_elevation = 1 / std::sqrt(1 + row.slope * row.slope);
+    rows_.push_back({cos_elevation, row.slope, row.offset_m, row.side_offset_m, azimuth.sin, azimuth.cos,
+                     row.azimuth_rad, static_cast<float>(cos_elevation),
+                     static_cast<float>(row.side_offset_m)});
   }
   columns_.reserve(grid.column_count());
   for (std::size_t c = 0; c < grid.column_count(); ++c) {
@@ -36,14 +49,41 @@ RayTable::RayTable(const SensorModel& model, const SweepGrid& grid) {
   if (angle_rad_ > 0) axis_ = {w[0] / angle_rad_, w[1] / angle_rad_, w[2] / angle_rad_};
 }
 
-RayTable::Vector RayTable::measured(const Row& row, const Column& column, double range_m) const {
+// p = R(-s w) (q - s v), by Rodrigues' formula.
+inline RayTable::Vector RayTable::turned_back(const Vector& q, double s, double sine, double versine) const {
+  const Vector d = {q.x - s * v_.x, q.y - s * v_.y, q.z - s * v_.z};
+  const double along = axis_.x * d.x + axis_.y * d.y + axis_.z * d.z;
+  return {d.x + (sine * (axis_.y * d.z - axis_.z * d.y) + versine * (along * axis_.x - d.x)),
+          d.y + (sine * (axis_.z * d.x - axis_.x * d.z) + versine * (along * axis_.y - d.y)),
+          d.z + (sine * (axis_.x * d.y - axis_.y * d.x) + versine * (along * axis_.z - d.z))};
+}
+
+// Sine and cosine by series: below half a radian their error is below 1e-11.
+inline RayTable::Vector RayTable::slightly_turned(const Vector& q, double s) const {
+  const double t = -s * angle_rad_;
+  const double t2 = t * t;
+  const double sine =
+      t * (1 - t2 * (1.0 / 6) * (1 - t2 * (1.0 / 20) * (1 - t2 * (1.0 / 42) * (1 - t2 * (1.0 / 72)))));
+  const double versine = t2 * 0.5 * (1 - t2 * (1.0 / 12) * (1 - t2 * (1.0 / 30) * (1 - t2 * (1.0 / 56))));
+  return turned_back(q, s, sine, versine);
+}
+
+RayTable::Vector RayTable::compensated(const Vector& q, double azimuth_rad) const {
+  const double s = turns_from_front(azimuth_rad);
+  if (angle_rad_ < kSmallTurnRad) return slightly_turned(q, s);
+  const SinCos turn = sin_cos(-s * angle_rad_);
+  return turned_back(q, s, turn.sin, 1 - turn.cos);
+}
+
+inline RayTable::Vector RayTable::measured(const Row& row, const Column& column, double range_m) const {
   const double rho = range_m * row.cos_elevation;
   const double sin_a = column.sin * row.cos_azimuth + column.cos * row.sin_azimuth;
   const double cos_a = column.cos * row.cos_azimuth - column.sin * row.sin_azimuth;
+  constexpr double kLeastM = 1e-30;  // keeps 0 / 0 away
   // Turned by atan2(h, rho), whose cosine and sine are rho and h over their hypotenuse.
   const double h = row.side_offset_m;
   const double hypotenuse = std::sqrt(rho * rho + h * h);
-  const double scale = hypotenuse > 0 ? rho / hypotenuse : 0.0;
+  const double scale = rho / (hypotenuse > kLeastM ? hypotenuse : kLeastM);
   return {scale * (rho * cos_a - h * sin_a), scale * (rho * sin_a + h * cos_a),
           row.slope * rho + row.offset_m};
 }
@@ -55,23 +95,48 @@ Point3f RayTable::measured_position(std::size_t row, std::size_t column, float r
 
 Point3f RayTable::position(std::size_t row, std::size_t column, float range_m) const {
   const Row& r = rows_[row];
-  const Column& c = columns_[column];
-  const Vector q = measured(r, c, range_m);
+  const Vector q = measured(r, columns_[column], range_m);
   if (!compensated_) return {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)};
+  const Vector p =
+      compensated(q, columns_[column].azimuth_rad + r.azimuth_rad +
+                         static_cast<double>(fast_atan2(r.side_offset_m_f, range_m * r.cos_elevation_f)));
+  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+}
 
-  double azimuth_rad = c.azimuth_rad + r.azimuth_rad;
-  azimuth_rad += static_cast<double>(
-      fast_atan2(static_cast<float>(r.side_offset_m), static_cast<float>(range_m * r.cos_elevation)));
-  while (azimuth_rad > kPi) azimuth_rad -= 2 * kPi;
-  while (azimuth_rad <= -kPi) azimuth_rad += 2 * kPi;
-  const double s = azimuth_rad / (2 * kPi);
-  // p = R(-s w) (q - s v), by Rodrigues' formula.
-  const Vector d = {q.x - s * v_.x, q.y - s * v_.y, q.z - s * v_.z};
-  const SinCos turn = sin_cos(-s * angle_rad_);
-  const double along = (axis_.x * d.x + axis_.y * d.y + axis_.z * d.z) * (1 - turn.cos);
-  return {static_cast<float>(turn.cos * d.x + turn.sin * (axis_.y * d.z - axis_.z * d.y) + along * axis_.x),
-          static_cast<float>(turn.cos * d.y + turn.sin * (axis_.z * d.x - axis_.x * d.z) + along * axis_.y),
-          static_cast<float>(turn.cos * d.z + turn.sin * (axis_.x * d.y - axis_.y * d.x) + along * axis_.z)};
+void RayTable::positions_of_row(std::size_t row, std::span<const float> range_m,
+                                std::span<Point3f> positions) const {
+  const Row r = rows_[row];
+  constexpr std::size_t kBlock = 64;
+  std::array<float, kBlock> side_rad{}, x, y, z;
+  for (std::size_t first = 0; first < range_m.size(); first += kBlock) {
+    const std::size_t count = std::min(kBlock, range_m.size() - first);
+    const float* ranges_m = &range_m[first];
+    const Column* columns = &columns_[first];
+    if (compensated_ && angle_rad_ >= kSmallTurnRad) {  // no sane sweep
+      for (std::size_t k = 0; k < count; ++k) positions[first + k] = position(row, first + k, ranges_m[k]);
+      continue;
+    }
+    if (compensated_) {
+      for (std::size_t k = 0; k < count; ++k)
+        side_rad[k] = fast_atan2(r.side_offset_m_f, ranges_m[k] * r.cos_elevation_f);
+      for (std::size_t k = 0; k < count; ++k) {
+        const Vector p = slightly_turned(
+            measured(r, columns[k], ranges_m[k]),
+            turns_from_front(columns[k].azimuth_rad + r.azimuth_rad + static_cast<double>(side_rad[k])));
+        x[k] = static_cast<float>(p.x);
+        y[k] = static_cast<float>(p.y);
+        z[k] = static_cast<float>(p.z);
+      }
+    } else {
+      for (std::size_t k = 0; k < count; ++k) {
+        const Vector p = measured(r, columns[k], ranges_m[k]);
+        x[k] = static_cast<float>(p.x);
+        y[k] = static_cast<float>(p.y);
+        z[k] = static_cast<float>(p.z);
+      }
+    }
+    for (std::size_t k = 0; k < count; ++k) positions[first + k] = {x[k], y[k], z[k]};
+  }
 }
 
 std::vector<std::int32_t> column_shift_of_row(const SensorModel& model, const SweepGrid& grid) {

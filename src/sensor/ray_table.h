@@ -21,12 +21,16 @@ class RayTable {
 
   // The decoded point; for compensated sweeps in the coordinates of the file. Any finite range will do.
   Point3f position(std::size_t row, std::size_t column, float range_m) const;
+  // The same for the columns of a row from the first on, one range for each (what for is the caller's matter:
+  // empty cells give some point): several times as fast.
+  void positions_of_row(std::size_t row, std::span<const float> range_m, std::span<Point3f> positions) const;
   // As measured, before compensation: what neighbouring cells have in common.
   Point3f measured_position(std::size_t row, std::size_t column, float range_m) const;
 
  private:
   struct Row {
     double cos_elevation, slope, offset_m, side_offset_m, sin_azimuth, cos_azimuth, azimuth_rad;
+    float cos_elevation_f, side_offset_m_f;
   };
   struct Column {
     double sin, cos, azimuth_rad;
@@ -35,6 +39,9 @@ class RayTable {
     double x, y, z;
   };
   Vector measured(const Row& row, const Column& column, double range_m) const;
+  Vector compensated(const Vector& q, double azimuth_rad) const;
+  Vector slightly_turned(const Vector& q, double s) const;
+  Vector turned_back(const Vector& q, double s, double sine, double versine) const;
 
   std::vector<Row> rows_;
   std::vector<Column> columns_;

@@ -51,6 +51,7 @@ RowFit fit_row(const PolarPoints& polar, std::span<const std::uint32_t> points) 
     if (n < 2) return fit;
     const double mean_r = sum_r / n;
     const double mean_z = sum_z / n;
+    const RowFit before = fit;
     const double spread = sum_rr / n - mean_r * mean_r;
     // A row that sees everything at one distance keeps its offset.
     if (spread > 1e-4 * mean_r * mean_r)
@@ -58,6 +59,8 @@ RowFit fit_row(const PolarPoints& polar, std::span<const std::uint32_t> points) 
     else
       fit.slope = (mean_z - fit.offset_m) / mean_r;
     fit.offset_m = mean_z - fit.slope * mean_r;
+    // A thousandth of what the stream can tell apart.
+    if (std::fabs(fit.slope - before.slope) < 1e-9 && std::fabs(fit.offset_m - before.offset_m) < 1e-7) break;
   }
   fit.usable = true;
   return fit;

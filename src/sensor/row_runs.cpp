@@ -3,48 +3,56 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <utility>
 
 namespace pointreel {
 namespace {
 
 constexpr float kTurn = 2 * std::numbers::pi_v<float>;
 
-// A seam at azimuth 0, or behind the sensor.
-RowRuns split(const PolarPoints& polar, bool behind) {
-  const auto turned = [&](std::size_t i) {
-    const float a = polar.azimuth_rad[i];
-    return a < 0 && !behind ? a + kTurn : a;
-  };
-  // Which way the sensor turns: the sign of most small steps.
-  std::size_t up = 0;
-  std::size_t down = 0;
+// Which way the sensor turns: the sign of most small steps.
+bool turns_down(const PolarPoints& polar) {
+  constexpr float kSmall = 0.1F;
+  std::uint32_t up = 0;
+  std::uint32_t down = 0;
+  for (std::size_t i = 1; i < polar.size(); ++i) {
+    const float step = polar.azimuth_rad[i] - polar.azimuth_rad[i - 1];
+    const bool small = polar.rho_m[i] > 0 && polar.rho_m[i - 1] > 0 && std::fabs(step) < kSmall;
+    up += small && step > 0 ? 1 : 0;
+    down += small && step < 0 ? 1 : 0;
+  }
+  return down > up;
+}
+
+struct BothSeams {
+  RowRuns front, behind;  // a seam at azimuth 0, or behind the sensor
+};
+
+BothSeams split(const PolarPoints& polar) {
+  BothSeams both;
+  both.front.descending = both.behind.descending = turns_down(polar);
+  const float direction = both.front.descending ? -1.0F : 1.0F;
   float before = 0;
   bool any = false;
   for (std::size_t i = 0; i < polar.size(); ++i) {
     if (!polar.has_ray(i)) continue;
-    const float a = turned(i);
-    if (any && a > before && a - before < 0.1F) ++up;
-    if (any && a < before && before - a < 0.1F) ++down;
-    before = a;
-    any = true;
-  }
-  RowRuns runs;
-  runs.descending = down > up;
-  any = false;
-  for (std::size_t i = 0; i < polar.size(); ++i) {
-    if (!polar.has_ray(i)) continue;
-    const float a = turned(i);
-    const float back = runs.descending ? a - before : before - a;
+    const float here = polar.azimuth_rad[i];
     if (!any) {
-      runs.first.push_back(0);
-    } else if (back > 1) {
-      runs.first.push_back(i);
+      both.front.first.push_back(0);
+      both.behind.first.push_back(0);
+      any = true;
+    } else {
+      const float back = direction * (before - here);
+      if (back > 1) both.behind.first.push_back(i);
+      // From azimuth 0 on, points behind the sensor's left come a turn later.
+      const float turns = (before < 0 ? kTurn : 0.0F) - (here < 0 ? kTurn : 0.0F);
+      if (back + direction * turns > 1) both.front.first.push_back(i);
     }
-    before = a;
-    any = true;
+    before = here;
   }
-  return runs;
+  return both;
 }
 
 // How far the two halves of a run are apart in elevation, on average over the runs: a wrong seam makes runs
@@ -76,9 +84,9 @@ float bend(const PolarPoints& polar, const RowRuns& runs) {
 }  // namespace
 
 RowRuns split_into_runs(const PolarPoints& polar) {
-  RowRuns front = split(polar, false);
-  RowRuns back = split(polar, true);
-  return bend(polar, back) < 0.7F * bend(polar, front) ? back : front;
+  BothSeams both = split(polar);
+  const bool behind = bend(polar, both.behind) < 0.7F * bend(polar, both.front);
+  return std::move(behind ? both.behind : both.front);
 }
 
 }  // namespace pointreel

@@ -74,7 +74,6 @@ void code_column(Coder& coder, SizedInteger& model, std::size_t rows, std::size_
 }
 
 constexpr int kVersionBits = 3;
-constexpr std::uint32_t kRangePhaseSteps = 64;
 
 // Encoder and decoder alike; the decoder passes an empty model. False: not a model.
 template <class Coder>

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "sensor/blind_twist.h"
 #include "sensor/columns.h"
 #include "sensor/diagnosis.h"
 #include "sensor/firing_order.h"
@@ -16,7 +17,6 @@
 #include "sensor/row_evidence.h"
 #include "sensor/row_fit.h"
 #include "sensor/tick_lattice.h"
-#include "sensor/twist_fit.h"
 
 namespace pointreel {
 namespace {
@@ -228,9 +228,7 @@ class ModelFit {
   std::vector<std::int16_t> row_of_point_;
 };
 
-bool is_usable(const SensorModel& model, const PointCloud& cloud, const GridOptions& options) {
-  if (model.rows.empty()) return false;
-  const GriddedSweep sweep = project(model, cloud, options);
+bool is_usable(const SensorModel& model, const GriddedSweep& sweep) {
   const SensorDiagnosis diagnosis = diagnose(model, std::span(&sweep, 1));
   const auto of = [&](StrayReason reason) {
     return diagnosis.points_by_reason[static_cast<std::size_t>(reason)];
@@ -244,8 +242,32 @@ bool is_usable(const SensorModel& model, const PointCloud& cloud, const GridOpti
 
 }  // namespace
 
-void SensorEstimator::add(const PointCloud& cloud) {
-  if (model_) return;
+bool SensorEstimator::accept(SensorModel model, const PointCloud& cloud) {
+  if (model.rows.empty()) return false;
+  const GriddedSweep sweep = project(model, cloud, options_);
+  if (!is_usable(model, sweep)) return false;
+  refinement_.emplace(std::move(model));
+  refine(cloud, sweep, false);
+  return true;
+}
+
+void SensorEstimator::refine(const PointCloud& cloud, const GriddedSweep& sweep, bool rows) {
+  if (sweep.cell_of_point.size() != cloud.size()) return;
+  const RowSamples samples = take_row_samples(refinement_->base(), cloud, sweep);
+  refinement_->add(samples);
+  lattice_.add(samples);
+  model_ = rows ? refinement_->refined() : refinement_->base();
+  lattice_.write_to(*model_, refinement_->base());
+  ++sweeps_;
+}
+
+void SensorEstimator::add(const PointCloud& cloud, const GriddedSweep* projected) {
+  constexpr int kMostSweeps = 8;
+  if (model_) {
+    if (sweeps_ < kMostSweeps)
+      refine(cloud, projected != nullptr ? *projected : project(*model_, cloud, options_), true);
+    return;
+  }
   const PolarPoints polar = polar_points(cloud, {}, options_.threads);
   for (const EvidenceKind kind : {EvidenceKind::ring, EvidenceKind::runs, EvidenceKind::elevations}) {
     const RowEvidence evidence = find_row_evidence(kind, cloud, polar);
@@ -257,15 +279,10 @@ void SensorEstimator::add(const PointCloud& cloud) {
         SensorModel compensated =
             ModelFit(polar_points(cloud, blind->twist, options_.threads), evidence, options_.threads).fit();
         compensated.motion_compensated = true;
-        if (compensated.ticks_per_turn > 0 && is_usable(compensated, cloud, options_)) {
-          model_ = std::move(compensated);
-          return;
-        }
+        if (compensated.ticks_per_turn > 0 && accept(std::move(compensated), cloud)) return;
       }
     }
-    if (!is_usable(model, cloud, options_)) continue;
-    model_ = std::move(model);
-    return;
+    if (accept(std::move(model), cloud)) return;
   }
 }
 

@@ -48,6 +48,7 @@ inline constexpr std::uint32_t kMaxTicksPerTurn = 1u << 22;
 inline constexpr double kSlopeStep = 1.0 / (1 << 20);
 inline constexpr double kOffsetStepM = 1.0 / (1 << 13);  // of both offsets
 inline constexpr double kAzimuthStepTurns = 1.0 / (1 << 22);
+inline constexpr std::uint32_t kRangePhaseSteps = 64;  // per step of the range lattice
 
 // The nearest model that the stream can carry; `row` may hold any finite values.
 RowModel rounded(const RowModel& row);

@@ -1,11 +1,12 @@
 #include "sensor/tick_lattice.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <complex>
 #include <cstdlib>
 #include <numbers>
+
+#include "sensor/phase_bank.h"
 
 namespace pointreel {
 namespace {
@@ -54,31 +55,24 @@ std::uint32_t find_ticks_per_turn(const PolarPoints& polar, const RowPoints& row
     kept.erase(middle, kept.end());
     pairs = std::move(kept);
   }
-  const std::size_t count = pairs.size();
-  std::vector<float> re(count);
-  std::vector<float> im(count);
-  std::vector<float> step_re(count);
-  std::vector<float> step_im(count);
+  // A third of the pairs rules most numbers out.
+  constexpr std::size_t kScouts = 3;
+  constexpr double kHopeful = 0.6;
+  PhaseBank scouts;
   std::vector<double> scores(kMost + 1, 0);
   double best = 0;
   constexpr std::uint32_t kRestart = 256;  // float rotations drift
   for (std::uint32_t n = kFewest; n <= kMost; ++n) {
     if ((n - kFewest) % kRestart == 0) {
-      for (std::size_t i = 0; i < count; ++i) {
-        re[i] = static_cast<float>(std::cos(n * pairs[i].difference));
-        im[i] = static_cast<float>(std::sin(n * pairs[i].difference));
-        step_re[i] = static_cast<float>(std::cos(pairs[i].difference));
-        step_im[i] = static_cast<float>(std::sin(pairs[i].difference));
-      }
+      scouts.clear();
+      for (std::size_t i = 0; i < pairs.size(); i += kScouts)
+        scouts.add(n * pairs[i].difference, pairs[i].difference);
     }
-    float sum = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      sum += re[i];
-      const float next = re[i] * step_re[i] - im[i] * step_im[i];
-      im[i] = re[i] * step_im[i] + im[i] * step_re[i];
-      re[i] = next;
-    }
-    scores[n] = static_cast<double>(sum) / static_cast<double>(count);
+    const auto sum = static_cast<double>(scouts.sum_and_turn().real());
+    if (sum < kHopeful * static_cast<double>(scouts.size())) continue;
+    double exact = 0;
+    for (const Pair& pair : pairs) exact += std::cos(n * pair.difference);
+    scores[n] = exact / static_cast<double>(pairs.size());
     best = std::max(best, scores[n]);
   }
   if (best < 0.75) return 0;
@@ -110,36 +104,23 @@ RowAzimuth fit_row_azimuth(const PolarPoints& polar, const std::vector<std::uint
   RowAzimuth fit;
   if (samples.size() < 4) return fit;
   // Coherence of the phases over all candidate offsets, by rotating each sample from one to the next.
-  std::vector<std::complex<float>> phasors;
-  std::vector<std::complex<float>> steps;
+  PhaseBank phases;
   float weights = 0;
   for (const Sample& s : samples) {
-    const double phase = n * (s.azimuth + kMostSideM * s.inverse);
-    phasors.emplace_back(static_cast<float>(std::cos(phase)) * s.weight,
-                         static_cast<float>(std::sin(phase)) * s.weight);
-    const double step = -n * kStepM * s.inverse;
-    steps.emplace_back(static_cast<float>(std::cos(step)), static_cast<float>(std::sin(step)));
+    phases.add(n * (s.azimuth + kMostSideM * s.inverse), -n * kStepM * s.inverse, s.weight);
     weights += s.weight;
   }
   const int candidates = static_cast<int>(2 * kMostSideM / kStepM) + 1;
   float most = -1;
   std::complex<float> mean;
   for (int c = 0; c < candidates; ++c) {
-    float re = 0;
-    float im = 0;
-    for (std::size_t k = 0; k < phasors.size(); ++k) {
-      const float a = phasors[k].real();
-      const float b = phasors[k].imag();
-      re += a;
-      im += b;
-      phasors[k] = {a * steps[k].real() - b * steps[k].imag(), a * steps[k].imag() + b * steps[k].real()};
-    }
+    const std::complex<float> sum = phases.sum_and_turn();
     // Without near points every offset looks alike: the smallest is taken.
     const float h = static_cast<float>(std::fabs(-kMostSideM + c * kStepM));
-    const float coherence = std::sqrt(re * re + im * im) / weights - 0.02F * h;
+    const float coherence = std::sqrt(std::norm(sum)) / weights - 0.02F * h;
     if (coherence > most) {
       most = coherence;
-      mean = {re, im};
+      mean = sum;
       fit.side_offset_m = -kMostSideM + c * kStepM;
     }
   }
@@ -179,6 +160,14 @@ RowAzimuth fit_row_azimuth(const PolarPoints& polar, const std::vector<std::uint
 
 namespace {
 
+// std::popcount calls a function where the processor's instruction may not be used; this becomes SIMD code.
+std::uint32_t count_bits(std::uint64_t bits) {
+  bits -= (bits >> 1) & 0x5555555555555555u;
+  bits = (bits & 0x3333333333333333u) + ((bits >> 2) & 0x3333333333333333u);
+  bits = (bits + (bits >> 4)) & 0x0f0f0f0f0f0f0f0fu;
+  return static_cast<std::uint32_t>((bits * 0x0101010101010101u) >> 56);
+}
+
 // A set of ticks on the circle, rotated and counted 64 at a time.
 class TickSet {
  public:
@@ -197,7 +186,7 @@ class TickSet {
       if (offset != 0) here |= words[w + 1] << (64 - offset);
       std::uint64_t mask = other.words_[w];
       if (w == full) mask &= (std::uint64_t{1} << (turn_ % 64)) - 1;
-      count += static_cast<std::uint32_t>(std::popcount(here & mask));
+      count += count_bits(here & mask);
     }
     return count;
   }

@@ -9,7 +9,7 @@ namespace pointreel {
 namespace {
 
 std::vector<EncoderOptions> varied_options() {
-  std::vector<EncoderOptions> all(5);
+  std::vector<EncoderOptions> all(5, planes_options());
   all[1].planes.threshold_m = 0.001;
   all[2].planes.threshold_m = 10;
   all[3].planes.residual_mode = ResidualMode::raw_float;
@@ -56,7 +56,7 @@ Pose any_motion() {
 }
 
 RC_GTEST_PROP(AnyClouds, KeepTheBoundUnderAnyOptionsAndMotion, ()) {
-  EncoderOptions options;
+  EncoderOptions options = planes_options();
   options.planes.azimuth_step_rad = *rc::gen::element(0.01, 0.033, 0.1);
   options.planes.elevation_step_rad = *rc::gen::element(0.01, 0.05);
   options.planes.threshold_m = *rc::gen::element(0.001, 0.05, 0.5, 10.0);

@@ -17,7 +17,7 @@ class Groups : public testing::Test {
   }
 
   static EncoderOptions options_with_group(int group) {
-    EncoderOptions options;
+    EncoderOptions options = planes_options();
     options.planes.group = group;
     options.planes.elevation_step_rad = 2 * kDegree;  // the sensor's own
     return options;

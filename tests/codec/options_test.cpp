@@ -5,6 +5,7 @@
 
 #include "pointreel/codec.h"
 #include "support/clouds.h"
+#include "support/codec_round_trip.h"
 #include "support/expect_error.h"
 
 namespace pointreel {
@@ -14,16 +15,47 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 template <class Change>
 Result<Encoder> encoder_with(const Change& change) {
-  EncoderOptions options;
+  EncoderOptions options = planes_options();
   change(options.planes);
   return Encoder::create(options);
 }
 
-TEST(EncoderOptions, DefaultsAreValidAndResolveTheResidualStep) {
-  const auto encoder = Encoder::create({});
+template <class Change>
+Result<Encoder> mixture_encoder_with(const Change& change) {
+  EncoderOptions options;
+  change(options.mixture);
+  return Encoder::create(options);
+}
+
+TEST(EncoderOptions, DefaultsOfPlanesAreValidAndResolveTheResidualStep) {
+  const auto encoder = Encoder::create(planes_options());
   ASSERT_TRUE(encoder);
   EXPECT_EQ(encoder->header().planes.residual_step_m, 0.2);
-  EXPECT_EQ(encoder->header().range_bound_m(), 0.1);
+  EXPECT_EQ(encoder->header().bound_m(), 0.1);
+}
+
+TEST(EncoderOptions, MixtureIsTheDefaultWithABoundOf2cm) {
+  const auto encoder = Encoder::create({});
+  ASSERT_TRUE(encoder);
+  EXPECT_EQ(encoder->header().method, Method::mixture);
+  EXPECT_EQ(encoder->header().bound_m(), 0.02);
+}
+
+TEST(EncoderOptions, OutOfRangeValuesOfMixtureNameTheirOption) {
+  for (const double bad : {0.0, -1.0, 0.0004, 1.1, kNan}) {
+    expect_error(mixture_encoder_with([&](MixtureOptions& mixture) { mixture.max_error_m = bad; }),
+                 ErrorCode::invalid_argument, "max-error must lie in 0.0005 to 1 m, got");
+  }
+  for (const int bad : {-1, 0, 256}) {
+    expect_error(mixture_encoder_with([&](MixtureOptions& mixture) { mixture.group = bad; }),
+                 ErrorCode::invalid_argument, "group must lie in 1 to 255 sweeps");
+  }
+  for (const double bad : {-0.1, kNan, std::numeric_limits<double>::infinity()}) {
+    expect_error(mixture_encoder_with([&](MixtureOptions& mixture) {
+                   mixture.fields.named = {{"intensity", bad}};
+                 }),
+                 ErrorCode::invalid_argument, "fields: the step of intensity");
+  }
 }
 
 TEST(EncoderOptions, OutOfRangeValuesNameTheirOption) {
@@ -63,7 +95,7 @@ TEST(EncoderOptions, UnknownMethodIsUnsupported) {
 }
 
 TEST(Decoder, RefusesHeadersThatNoEncoderMakes) {
-  const StreamHeader good = Encoder::create({})->header();
+  const StreamHeader good = Encoder::create(planes_options())->header();
   EXPECT_TRUE(Decoder::create(good));
   StreamHeader bad = good;
   bad.planes.tile_size = 0;
@@ -75,21 +107,27 @@ TEST(Decoder, RefusesHeadersThatNoEncoderMakes) {
   bad = good;
   bad.planes.azimuth_step_rad = 1e-9;
   expect_error(Decoder::create(bad), ErrorCode::invalid_argument, "steps");
+  bad = StreamHeader{};
+  EXPECT_TRUE(Decoder::create(bad));
+  bad.max_error_m = kNan;
+  expect_error(Decoder::create(bad), ErrorCode::invalid_argument, "max-error");
+  expect_error(pair_points(bad, {}, {}), ErrorCode::invalid_argument, "max-error");
 }
 
 TEST(RangeBound, IsTheWorseOfThresholdAndHalfTheResidualStep) {
   StreamHeader header;
+  header.method = Method::planes;
   header.planes.threshold_m = 0.1;
   header.planes.residual_step_m = 0.05;
-  EXPECT_EQ(header.range_bound_m(), 0.1);
+  EXPECT_EQ(header.bound_m(), 0.1);
   header.planes.residual_step_m = 0.5;
-  EXPECT_EQ(header.range_bound_m(), 0.25);
+  EXPECT_EQ(header.bound_m(), 0.25);
   header.planes.residual_mode = ResidualMode::raw_float;
-  EXPECT_EQ(header.range_bound_m(), 0.1);
+  EXPECT_EQ(header.bound_m(), 0.1);
 }
 
 TEST(Encoder, ANonsensePoseIsAnErrorNamingItsFrame) {
-  EncoderOptions options;
+  EncoderOptions options = planes_options();
   options.planes.group = 3;
   auto encoder = Encoder::create(options);
   ASSERT_TRUE(encoder);
@@ -102,7 +140,7 @@ TEST(Encoder, ANonsensePoseIsAnErrorNamingItsFrame) {
 }
 
 TEST(Encoder, ASweepWhoseGridWouldBeHugeIsAnErrorNamingItsFrame) {
-  EncoderOptions options;
+  EncoderOptions options = planes_options();
   options.planes.group = 1;
   options.planes.azimuth_step_rad = options.planes.elevation_step_rad = 0.0003;
   auto encoder = Encoder::create(options);

@@ -21,6 +21,13 @@ Packet sample_packet() {
   return packet;
 }
 
+StreamHeader planes_header() {
+  StreamHeader header;
+  header.method = Method::planes;
+  header.planes.residual_step_m = 0.2;
+  return header;
+}
+
 void expect_same(const Packet& a, const Packet& b) {
   EXPECT_EQ(a.frame, b.frame);
   EXPECT_EQ(a.group, b.group);
@@ -79,9 +86,8 @@ TEST(Packet, EveryChangedByteIsAnError) {
 }
 
 TEST(StreamHeader, EveryChangedByteIsAnError) {
-  StreamHeader header;
-  header.planes.residual_step_m = 0.2;
-  expect_every_change_to_fail(serialize(header), parse_stream_header);
+  expect_every_change_to_fail(serialize(StreamHeader{}), parse_stream_header);
+  expect_every_change_to_fail(serialize(planes_header()), parse_stream_header);
 }
 
 // What a checksum does not catch, because whoever wrote the bytes computed it.
@@ -114,8 +120,21 @@ TEST(Packet, AHugeClaimedPayloadIsAnErrorBeforeItIsRead) {
   expect_error(parse_packet(bytes), ErrorCode::corrupt, "too large at byte 4");
 }
 
-TEST(StreamHeader, ComesBackAsSerialized) {
+TEST(StreamHeader, OfMixtureComesBackAsSerialized) {
   StreamHeader header;
+  header.max_error_m = 0.035;
+  header.group = 17;
+  const auto bytes = serialize(header);
+  EXPECT_EQ(bytes.size(), kStreamHeaderBytes);
+  const auto parsed = parse_stream_header(bytes);
+  ASSERT_TRUE(parsed) << parsed.error().message;
+  EXPECT_EQ(parsed->method, Method::mixture);
+  EXPECT_EQ(parsed->max_error_m, 0.035);
+  EXPECT_EQ(parsed->group, 17);
+}
+
+TEST(StreamHeader, OfPlanesComesBackAsSerialized) {
+  StreamHeader header = planes_header();
   header.planes.threshold_m = 0.03;
   header.planes.azimuth_step_rad = 0.002;
   header.planes.elevation_step_rad = 0.007;
@@ -141,8 +160,7 @@ TEST(StreamHeader, ComesBackAsSerialized) {
 
 TEST(StreamHeader, ValuesOutOfRangeAreErrorsEvenWithAGoodChecksum) {
   const auto parse_changed = [](const auto& change) {
-    StreamHeader header;
-    header.planes.residual_step_m = 0.2;
+    StreamHeader header = planes_header();
     change(header);
     return parse_stream_header(serialize(header));
   };
@@ -157,6 +175,10 @@ TEST(StreamHeader, ValuesOutOfRangeAreErrorsEvenWithAGoodChecksum) {
   expect_corrupt("residual-step", [](StreamHeader& h) { h.planes.residual_mode = ResidualMode{2}; });
   expect_corrupt("steps", [](StreamHeader& h) { h.planes.azimuth_step_rad = 1e-9; });
   expect_corrupt("steps", [](StreamHeader& h) { h.planes.elevation_step_rad = -1; });
+  const auto of_mixture = [](StreamHeader& h) { h.method = Method::mixture; };
+  expect_corrupt("max-error", [&](StreamHeader& h) { of_mixture(h), h.max_error_m = std::nan(""); });
+  expect_corrupt("max-error", [&](StreamHeader& h) { of_mixture(h), h.max_error_m = 2; });
+  expect_corrupt("group", [&](StreamHeader& h) { of_mixture(h), h.group = 0; });
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ class RealSweepsRoundTrip : public testing::TestWithParam<const char*> {
 
 TEST_P(RealSweepsRoundTrip, KeepEveryPromise) {
   for (const double threshold_m : {0.02, 0.1}) {
-    EncoderOptions options;
+    EncoderOptions options = planes_options();
     options.planes.group = 3;
     options.planes.threshold_m = threshold_m;
     check_round_trip(sweeps_, options);
@@ -42,7 +42,7 @@ TEST_P(RealSweepsRoundTrip, WithTheirPoses) {
   auto poses = read_kitti_poses(folder_ / "poses.txt");
   ASSERT_TRUE(poses) << poses.error().message;
   poses->resize(sweeps_.size());
-  EncoderOptions options;
+  EncoderOptions options = planes_options();
   options.planes.group = 3;
   check_round_trip(sweeps_, options, *poses);
 }

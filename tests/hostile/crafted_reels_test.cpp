@@ -13,6 +13,7 @@ constexpr int kFinestRows = 10472, kFinestColumns = 20944;  // of steps of 0.000
 
 StreamHeader finest_header(int tile_size = 2) {
   StreamHeader header;
+  header.method = Method::planes;
   header.planes.azimuth_step_rad = header.planes.elevation_step_rad = 0.0003;
   header.planes.tile_size = tile_size;
   header.planes.residual_step_m = 0.2;
@@ -50,7 +51,7 @@ std::vector<std::uint8_t> with_pose(const std::vector<float>& pose, std::vector<
 }
 
 TEST(CraftedReels, PosesOfNanAndInfinity) {
-  const SampleReel good(ResidualMode::stepped);
+  const SampleReel good(planes_sample(ResidualMode::stepped));
   const float nan = std::numeric_limits<float>::quiet_NaN(),
               infinity = std::numeric_limits<float>::infinity();
   for (const float value : {nan, infinity, -infinity, 2.0f, 3e38f}) {
@@ -133,7 +134,7 @@ TEST(CraftedReels, RowsBeyondTheMostCellsAreErrors) {
 }
 
 TEST(CraftedReels, CountsThatClaimBillions) {
-  const SampleReel good(ResidualMode::raw_float);
+  const SampleReel good(planes_sample(ResidualMode::raw_float));
   auto packets = good.packets;
   for (Packet& packet : packets) packet.points_in = packet.points_out = 0xFFFFFFFFu, packet.non_finite = 0;
   const Outcome outcome = survive(reel_of(good.header, packets));
@@ -141,7 +142,7 @@ TEST(CraftedReels, CountsThatClaimBillions) {
 }
 
 TEST(CraftedReels, SizesThatClaimMoreThanTheFile) {
-  std::string bytes = SampleReel(ResidualMode::stepped).bytes();
+  std::string bytes = SampleReel(planes_sample(ResidualMode::stepped)).bytes();
   for (const std::uint32_t size : {kMaxPayloadBytes, kMaxPayloadBytes + 1, 0xFFFFFFFFu, 0u}) {
     std::memcpy(&bytes[kStreamHeaderBytes + 4], &size, sizeof(size));
     const Outcome outcome = survive(bytes);

@@ -6,7 +6,12 @@
 namespace pointreel {
 namespace {
 
-class DamagedReels : public testing::TestWithParam<ResidualMode> {
+struct Sample {
+  const char* name;
+  EncoderOptions options;
+};
+
+class DamagedReels : public testing::TestWithParam<Sample> {
  protected:
   std::size_t below(std::size_t limit) { return random_() % limit; }
 
@@ -18,7 +23,7 @@ class DamagedReels : public testing::TestWithParam<ResidualMode> {
     return survive(reel_of(reel_.header, packets));
   }
 
-  const SampleReel reel_{GetParam()};
+  const SampleReel reel_{GetParam().options};
   const std::string whole_ = reel_.bytes();
   std::mt19937 random_{20201024};
 };
@@ -117,6 +122,7 @@ TEST_P(DamagedReels, PacketsInAnyOrderAndNumber) {
 TEST_P(DamagedReels, OtherValidHeaders) {
   for (int i = 0; i < 150; ++i) {
     StreamHeader header = reel_.header;
+    header.max_error_m = 0.0005 + 0.001 * static_cast<double>(below(999));
     header.planes.tile_size = static_cast<int>(2 + below(15));
     if (i % 2 == 0) header.planes.azimuth_step_rad = 0.0003 + 0.00001 * static_cast<double>(below(9000));
     if (i % 3 == 0) header.planes.elevation_step_rad = 0.0003 + 0.00001 * static_cast<double>(below(9000));
@@ -131,10 +137,11 @@ TEST_P(DamagedReels, OtherValidHeaders) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Hostile, DamagedReels,
-                         testing::Values(ResidualMode::stepped, ResidualMode::raw_float),
-                         [](const auto& mode) {
-                           return std::string(mode.param == ResidualMode::stepped ? "Stepped" : "Raw");
-                         });
+                         testing::Values(Sample{"Stepped", planes_sample(ResidualMode::stepped)},
+                                         Sample{"Raw", planes_sample(ResidualMode::raw_float)},
+                                         Sample{"Mixture", mixture_sample(0.02)},
+                                         Sample{"MixtureFine", mixture_sample(0.0005)}),
+                         [](const auto& sample) { return std::string(sample.param.name); });
 
 }  // namespace
 }  // namespace pointreel

@@ -10,6 +10,7 @@ namespace pointreel {
 
 inline StreamHeader sample_header() {
   StreamHeader header;
+  header.method = Method::planes;
   header.planes.residual_step_m = 0.2;
   return header;
 }

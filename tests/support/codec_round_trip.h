@@ -14,6 +14,13 @@
 
 namespace pointreel {
 
+// Method `planes` as its defaults have it.
+inline EncoderOptions planes_options() {
+  EncoderOptions options;
+  options.method = Method::planes;
+  return options;
+}
+
 // Packets in stream order. `poses` is empty or has one for each sweep.
 inline std::vector<Packet> encode_all(const std::vector<PointCloud>& sweeps, const EncoderOptions& options,
                                       const std::vector<Pose>& poses = {}, int threads = 2) {
@@ -80,7 +87,7 @@ inline void check_sweep(const StreamHeader& header, const PointCloud& original, 
         distance_from_key_m(decoded.T_key_sensor, decoded.cloud.positions[static_cast<std::size_t>(pair)]);
     // float32 positions: a few units in the last place of the range, and of the motion that was undone.
     const double rounding_m = 1e-6 * (range_m + decoded.T_key_sensor.translation().norm()) + 1e-6;
-    ASSERT_LE(std::fabs(decoded_m - range_m), header.range_bound_m() + rounding_m) << "point " << i;
+    ASSERT_LE(std::fabs(decoded_m - range_m), header.bound_m() + rounding_m) << "point " << i;
   }
   EXPECT_EQ(static_cast<std::size_t>(std::count(owners.begin(), owners.end(), 1)), owners.size())
       << "decoded points without an original, or with two";

@@ -25,17 +25,38 @@ wrong() {
 wrong "subcommand"
 wrong "--output" encode drive
 wrong "--threshhold" encode drive -o a.reel --threshhold 1cm
-wrong "--threshold: '1 inch' is not a length" encode drive -o a.reel --threshold "1 inch"
-wrong "--threshold must lie in 0.001 to 10 m" encode drive -o a.reel --threshold 20m
+wrong "--max-error: '1 inch' is not a length" encode drive -o a.reel --max-error "1 inch"
+wrong "--max-error must lie in 0.0005 to 1 m" encode drive -o a.reel --max-error 2m
 wrong "--group must lie in 1 to 255" encode drive -o a.reel --group 256
-wrong "--tile must lie in 2 to 16" encode drive -o a.reel --tile 1
-wrong "--azimuth-step: '1gon' is not an angle" encode drive -o a.reel --azimuth-step 1gon
-wrong "azimuth and elevation steps" encode drive -o a.reel --azimuth-step 10deg
-wrong "--residual-step" encode drive -o a.reel --residual-step 0
-wrong "--residual-step" encode drive -o a.reel --residual-step never
+wrong "--fields: 'none,ring': none stands alone" encode drive -o a.reel --fields none,ring
+wrong "--fields: 'ring:' is not" encode drive -o a.reel --fields ring:
+wrong "--fields: 'ring:-1' is not" encode drive -o a.reel --fields all,ring:-1
+wrong "--fields: '' is not" encode drive -o a.reel --fields ring,
+wrong "--fields: 'ring' is named twice" encode drive -o a.reel --fields ring,ring:2
 wrong "--method" encode drive -o a.reel --method zip
 wrong "--threads" encode drive -o a.reel --threads -1
-wrong "--imu" encode drive -o a.reel --imu a.csv --poses b.txt
+
+planes=(encode drive -o a.reel --method planes)
+wrong "--threshold: '1 inch' is not a length" "${planes[@]}" --threshold "1 inch"
+wrong "--threshold must lie in 0.001 to 10 m" "${planes[@]}" --threshold 20m
+wrong "--group must lie in 1 to 255" "${planes[@]}" --group 0
+wrong "--tile must lie in 2 to 16" "${planes[@]}" --tile 1
+wrong "--azimuth-step: '1gon' is not an angle" "${planes[@]}" --azimuth-step 1gon
+wrong "azimuth and elevation steps" "${planes[@]}" --azimuth-step 10deg
+wrong "--residual-step" "${planes[@]}" --residual-step 0
+wrong "--residual-step" "${planes[@]}" --residual-step never
+wrong "--imu" "${planes[@]}" --imu a.csv --poses b.txt
+
+# Options of the other method, even with their default values.
+wrong "--max-error goes with --method mixture only; method planes has --threshold" "${planes[@]}" --max-error 2cm
+wrong "--fields goes with --method mixture only" "${planes[@]}" --fields all
+wrong "--no-temporal goes with --method mixture only; for method planes, use --group 1" "${planes[@]}" --no-temporal
+wrong "--threshold goes with --method planes only; method mixture has --max-error" encode drive -o a.reel --threshold 0.1
+for option in --azimuth-step=1deg --elevation-step=1deg --tile=4 --residual-step=auto --poses=a.txt --imu=a.csv; do
+  wrong "${option%=*} goes with --method planes only" encode drive -o a.reel "$option"
+done
+[[ ! -e a.reel ]] || fail "an output of wrong arguments"
+
 wrong "--json and -o -" encode drive -o - --json
 wrong "--frames: '3:1' is not A:B" decode a.reel -o out --frames 3:1
 wrong "--frames: 'x' is not A:B" decode a.reel -o out --frames x
@@ -43,6 +64,7 @@ wrong "docx" decode a.reel -o out --format docx
 wrong "--sensor: " simulate -o drive --sensor hdl-1
 wrong "--frames" simulate -o drive --frames 0
 wrong "INPUT" verify a.reel
+wrong "REEL: one at a time" info a.reel b.reel
 
 # 1: what is named is not there or no reel.
 failed() {
@@ -62,11 +84,11 @@ mkdir empty
 failed "empty" encode empty -o a.reel
 
 # Outputs are overwritten with -f only.
-make_drive
+make_planes_drive
 cp drive.reel before.reel
 failed "drive.reel: exists; -f overwrites it" encode drive -o drive.reel
 same_file drive.reel before.reel
-run 0 encode drive -o drive.reel --threshold 20cm -f
+run 0 encode drive -o drive.reel -f
 cmp -s drive.reel before.reel && fail "-f did not overwrite"
 failed "velodyne: is not empty; -f overwrites" simulate -o drive --frames 1 --sensor vlp-16
 run 0 simulate -o drive --frames 1 --sensor vlp-16 -f
@@ -81,5 +103,9 @@ head -c 15 "$sweep" >cut.bin
 failed "cut.bin" encode cut.bin -o kept.reel -f
 same_file kept.reel kept.copy
 cp "$sweep" sweep.copy
+failed "--fields: $sweep has no field ring (it has intensity)" encode "$sweep" -o kept.reel -f --fields all,ring:1
+same_file kept.reel kept.copy
+failed "has no field ring" encode "$sweep" -o new.reel --fields ring
+[[ ! -e new.reel ]] || fail "an output although a field is missing"
 failed "is one of the inputs" encode "$sweep" -o "$sweep" -f
 same_file "$sweep" sweep.copy

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# decode: every format, ranges of frames, damaged reels.
+# decode of method planes: every format, ranges of frames, damaged reels.
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "$0")/support.sh" "$@"
-make_drive
+make_planes_drive
 
 files_of() {
   (cd "$1" && echo *)

@@ -2,8 +2,8 @@
 # - for standard input and output: the bytes are those of files, and reports go to the other stream.
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "$0")/support.sh" "$@"
-make_drive
-options=(--elevation-step 2deg --group 3)
+make_planes_drive
+options=(--method planes --elevation-step 2deg --group 3)
 run 0 decode drive.reel -o files
 
 "$pointreel" encode drive -o - "${options[@]}" 2>stderr >stdout

@@ -54,8 +54,8 @@ matches_expected() {
   diff -u "$tests/expected/$1.txt" normalised >&2 || fail "not as in expected/$1.txt"
 }
 
-# A drive of five sweeps, compressed in two groups.
-make_drive() {
+# A drive of five sweeps, compressed by method planes in two groups.
+make_planes_drive() {
   run 0 simulate -o drive --frames 5 --sensor vlp-16
-  run 0 encode drive -o drive.reel --elevation-step 2deg --group 3
+  run 0 encode drive -o drive.reel --method planes --elevation-step 2deg --group 3
 }

@@ -1,14 +1,17 @@
-// pointreel info: what is inside a .reel, without decoding it.
+// pointreel info: what is inside a .reel, without decoding it; or, with --sensor, what sensor sweeps come
+// from.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "pointreel/console.h"
 #include "pointreel/exit_code.h"
 #include "pointreel/reel_input.h"
+#include "pointreel/sensor_report.h"
 #include "pointreel/units.h"
 #include "pointreel/verbs.h"
 
@@ -16,7 +19,8 @@ namespace pointreel {
 namespace {
 
 struct InfoArguments {
-  std::string input;
+  std::vector<std::string> inputs;
+  bool sensor = false;
   bool verbose = false;
   bool json = false;
 };
@@ -56,26 +60,37 @@ const char* name_of(FrameKind kind) {
   return kind == FrameKind::key ? "K" : "P";
 }
 
+nlohmann::json method_json(const StreamHeader& header) {
+  if (header.method == Method::mixture) {
+    return {{"method", "mixture"},
+            {"max_error_m", header.max_error_m},
+            {"group", header.group},
+            {"bound_kind", "space"}};
+  }
+  return {{"method", "planes"},
+          {"threshold_m", header.planes.threshold_m},
+          {"azimuth_step_deg", degrees(header.planes.azimuth_step_rad)},
+          {"elevation_step_deg", degrees(header.planes.elevation_step_rad)},
+          {"tile", header.planes.tile_size},
+          {"group", header.planes.group},
+          {"residual_step_m", header.planes.residual_mode == ResidualMode::raw_float
+                                  ? nlohmann::json("raw")
+                                  : nlohmann::json(header.planes.residual_step_m)},
+          {"bound_kind", "range"},
+          {"order_preserved", false}};
+}
+
 nlohmann::json to_json(const Summary& summary, const StreamHeader& header, bool complete, bool verbose) {
-  nlohmann::json json = {{"method", "planes"},
-                         {"threshold_m", header.planes.threshold_m},
-                         {"azimuth_step_deg", degrees(header.planes.azimuth_step_rad)},
-                         {"elevation_step_deg", degrees(header.planes.elevation_step_rad)},
-                         {"tile", header.planes.tile_size},
-                         {"group", header.planes.group},
-                         {"residual_step_m", header.planes.residual_mode == ResidualMode::raw_float
-                                                 ? nlohmann::json("raw")
-                                                 : nlohmann::json(header.planes.residual_step_m)},
-                         {"range_bound_m", header.range_bound_m()},
-                         {"order_preserved", false},
-                         {"frames", summary.frames.size()},
-                         {"key_frames", summary.key_frames},
-                         {"points_in", summary.points_in},
-                         {"points_out", summary.points_out},
-                         {"points_lost", summary.points_in - summary.points_out - summary.non_finite},
-                         {"points_non_finite", summary.non_finite},
-                         {"packet_bytes", summary.bytes},
-                         {"complete", complete}};
+  nlohmann::json json = method_json(header);
+  json.update({{"bound_m", header.bound_m()},
+               {"frames", summary.frames.size()},
+               {"key_frames", summary.key_frames},
+               {"points_in", summary.points_in},
+               {"points_out", summary.points_out},
+               {"points_lost", summary.points_in - summary.points_out - summary.non_finite},
+               {"points_non_finite", summary.non_finite},
+               {"packet_bytes", summary.bytes},
+               {"complete", complete}});
   if (verbose) {
     for (const FrameLine& line : summary.frames) {
       json["packets"].push_back({{"frame", line.frame},
@@ -95,13 +110,13 @@ double bits_per_point(std::uint64_t bytes, std::uint64_t points) {
   return points == 0 ? 0 : 8.0 * static_cast<double>(bytes) / static_cast<double>(points);
 }
 
-void print_summary(const Summary& summary, const StreamHeader& header, const std::string& name,
-                   bool verbose) {
-  const PlanesOptions& planes = header.planes;
-  fmt::print("{}: {} sweeps ({} key frames), {} points, {} ({:.3f} bits per point)\n", name,
-             summary.frames.size(), summary.key_frames, summary.points_in,
-             format_bytes(static_cast<double>(summary.bytes)),
-             bits_per_point(summary.bytes, summary.points_in));
+void print_mixture(const Summary& summary, const StreamHeader& header) {
+  fmt::print("  method    mixture: every point within {:g} m, groups of {}\n", header.max_error_m,
+             header.group);
+  fmt::print("  kept      {} points; {} not finite\n", summary.points_out, summary.non_finite);
+}
+
+void print_planes(const Summary& summary, const PlanesOptions& planes) {
   fmt::print("  method    planes: threshold {:g} m, grid {:g} x {:g} deg, tiles {}x{}, groups of {}\n",
              planes.threshold_m, degrees(planes.azimuth_step_rad), degrees(planes.elevation_step_rad),
              planes.tile_size, planes.tile_size, planes.group);
@@ -111,6 +126,19 @@ void print_summary(const Summary& summary, const StreamHeader& header, const std
   fmt::print(
       "  kept      {} points; {} lost to nearer ones in the same cell, {} not finite; order not kept\n",
       summary.points_out, summary.points_in - summary.points_out - summary.non_finite, summary.non_finite);
+}
+
+void print_summary(const Summary& summary, const StreamHeader& header, const std::string& name,
+                   bool verbose) {
+  const bool mixture = header.method == Method::mixture;
+  fmt::print("{}: {} sweeps ({} key frames), {} points, {} ({:.3f} bits per point{})\n", name,
+             summary.frames.size(), summary.key_frames, summary.points_in,
+             format_bytes(static_cast<double>(summary.bytes)),
+             bits_per_point(summary.bytes, summary.points_in), mixture ? " with fields" : "");
+  if (mixture)
+    print_mixture(summary, header);
+  else
+    print_planes(summary, header.planes);
   if (!verbose) return;
   fmt::print("\n  {:>7} {:>6} {:>4} {:>9} {:>9} {:>9} {:>9} {:>7}\n", "frame", "group", "kind", "reference",
              "bytes", "points in", "out", "bpp");
@@ -122,7 +150,13 @@ void print_summary(const Summary& summary, const StreamHeader& header, const std
 }
 
 int run(const InfoArguments& arguments) {
-  auto input = ReelInput::open(arguments.input);
+  if (arguments.sensor) return report_sensor({arguments.inputs, arguments.verbose, arguments.json});
+  if (arguments.inputs.size() > 1) {
+    print_error({ErrorCode::invalid_argument, "REEL: one at a time (--sensor takes many sweeps)"});
+    return kWrongArguments;
+  }
+  const std::string& reel = arguments.inputs.front();
+  auto input = ReelInput::open(reel);
   if (!input) {
     print_error(input.error());
     return kFailed;
@@ -132,7 +166,7 @@ int run(const InfoArguments& arguments) {
   if (arguments.json) {
     fmt::print("{}\n", to_json(summary, reader.header(), !reader.fault(), arguments.verbose).dump(2));
   } else {
-    print_summary(summary, reader.header(), arguments.input, arguments.verbose);
+    print_summary(summary, reader.header(), reel, arguments.verbose);
   }
   if (!reader.fault()) return kDone;
   print_error(*reader.fault());
@@ -142,10 +176,13 @@ int run(const InfoArguments& arguments) {
 }  // namespace
 
 Verb add_info(CLI::App& app) {
-  CLI::App* verb = app.add_subcommand("info", "Show what a .reel holds");
+  CLI::App* verb = app.add_subcommand("info", "Show what a .reel holds, or what sensor sweeps come from");
   auto arguments = std::make_shared<InfoArguments>();
-  verb->add_option("REEL", arguments->input, "The .reel; - for standard input")->required();
-  verb->add_flag("-v,--verbose", arguments->verbose, "A line per frame");
+  verb->add_option("REEL", arguments->inputs, "The .reel (- for standard input); with --sensor, sweeps")
+      ->required();
+  verb->add_flag("--sensor", arguments->sensor,
+                 "The sensor that these sweeps show: rows, columns, and points that do not fit");
+  verb->add_flag("-v,--verbose", arguments->verbose, "A line per frame; with --sensor, per row");
   verb->add_flag("--json", arguments->json, "JSON on standard output");
   return [arguments] { return run(*arguments); };
 }

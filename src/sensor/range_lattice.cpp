@@ -1,0 +1,70 @@
+#include "sensor/range_lattice.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+namespace pointreel {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+// The coarsest first: a lattice is one for every divisor of its step, too.
+constexpr std::array<std::uint32_t, 7> kStepsUm = {10000, 8000, 5000, 4000, 2500, 2000, 1000};
+
+double step_m(std::size_t candidate) {
+  return kStepsUm[candidate] * 1e-6;
+}
+
+}  // namespace
+
+void RangeLattice::add(const RowSamples& samples) {
+  constexpr std::size_t kMostPoints = 128;  // of a row and sweep
+  points_.resize(samples.size(), 0);
+  sums_.resize(kStepsUm.size());
+  for (auto& sums : sums_) sums.resize(samples.size());
+  for (std::size_t r = 0; r < samples.size(); ++r) {
+    const std::size_t stride = samples[r].size() / kMostPoints + 1;
+    for (std::size_t k = 0; k < samples[r].size(); k += stride) {
+      for (std::size_t c = 0; c < kStepsUm.size(); ++c) {
+        const double steps = samples[r][k].range_m / step_m(c);
+        const auto phase_rad = static_cast<float>(kTurn * (steps - std::floor(steps)));
+        sums_[c][r] += std::complex<double>(std::polar(1.0F, phase_rad));
+      }
+      ++points_[r];
+    }
+  }
+}
+
+void RangeLattice::write_to(SensorModel& model, const SensorModel& base) const {
+  // Coordinates rounded to 1 mm scatter by 0.3 mm: coherence 0.64 on a lattice of 2 mm, 0.17 on one of 1 mm,
+  // where there is nothing to gain.
+  constexpr double kCoherent = 0.5;
+  constexpr std::size_t kFewPoints = 50;  // by chance 0.14
+  model.range_step_m = 0;
+  model.range_phase.clear();
+  for (std::size_t c = 0; c < sums_.size(); ++c) {
+    std::size_t judged = 0;
+    std::size_t coherent = 0;
+    for (std::size_t r = 0; r < points_.size(); ++r) {
+      if (points_[r] < kFewPoints) continue;
+      ++judged;
+      coherent += std::abs(sums_[c][r]) >= kCoherent * static_cast<double>(points_[r]) ? 1 : 0;
+    }
+    if (judged == 0 || judged * 2 < points_.size() || coherent * 20 < judged * 19) continue;
+    model.range_step_m = step_m(c);
+    for (std::size_t r = 0; r < points_.size(); ++r) {
+      // Where the row's offset has changed, so have all ranges along it.
+      const RowModel& row = base.rows[r];
+      const double change_m =
+          -row.slope / std::sqrt(1 + row.slope * row.slope) * (model.rows[r].offset_m - row.offset_m);
+      const double phase = std::arg(sums_[c][r]) / kTurn + change_m / step_m(c);
+      const auto steps = static_cast<std::int64_t>(std::floor(phase * kRangePhaseSteps + 0.5));
+      model.range_phase.push_back(static_cast<double>(steps & (kRangePhaseSteps - 1)) / kRangePhaseSteps);
+    }
+    return;
+  }
+}
+
+}  // namespace pointreel

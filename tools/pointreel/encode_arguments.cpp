@@ -1,0 +1,152 @@
+#include "pointreel/encode_arguments.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <string_view>
+
+#include "pointreel/field_choice.h"
+#include "pointreel/units.h"
+
+namespace pointreel {
+namespace {
+
+// What to do instead of giving the option to the other method.
+std::string_view advice_for(std::string_view option) {
+  if (option == "--max-error") return "; method planes has --threshold";
+  if (option == "--fields") return "; method planes carries geometry only";
+  if (option == "--no-temporal") return "; for method planes, use --group 1";
+  if (option == "--threshold") return "; method mixture has --max-error";
+  if (option == "--poses" || option == "--imu") return "; method mixture makes no use of motion yet";
+  return "";
+}
+
+Result<void> belongs_to_method(const std::vector<const CLI::Option*>& options, std::string_view method) {
+  for (const CLI::Option* option : options) {
+    if (option->count() == 0) continue;
+    return Error{ErrorCode::invalid_argument,
+                 fmt::format("{} goes with --method {} only{}", option->get_name(), method,
+                             advice_for(option->get_name()))};
+  }
+  return {};
+}
+
+Result<EncoderOptions> mixture_options(const EncodeArguments& arguments) {
+  EncoderOptions options;
+  options.method = Method::mixture;
+  const auto max_error = parse_length_m(arguments.max_error);
+  if (!max_error) return Error{ErrorCode::invalid_argument, "--max-error: " + max_error.error().message};
+  options.mixture.max_error_m = *max_error;
+  auto fields = parse_field_selection(arguments.fields);
+  if (!fields) return Error{ErrorCode::invalid_argument, "--fields: " + fields.error().message};
+  options.mixture.fields = *std::move(fields);
+  if (arguments.group) options.mixture.group = *arguments.group;
+  return options;
+}
+
+Result<EncoderOptions> planes_options(const EncodeArguments& arguments) {
+  EncoderOptions options;
+  options.method = Method::planes;
+  const auto threshold = parse_length_m(arguments.threshold);
+  if (!threshold) return Error{ErrorCode::invalid_argument, "--threshold: " + threshold.error().message};
+  const auto azimuth_step = parse_angle_rad(arguments.azimuth_step);
+  if (!azimuth_step)
+    return Error{ErrorCode::invalid_argument, "--azimuth-step: " + azimuth_step.error().message};
+  const auto elevation_step = parse_angle_rad(arguments.elevation_step);
+  if (!elevation_step)
+    return Error{ErrorCode::invalid_argument, "--elevation-step: " + elevation_step.error().message};
+  options.planes.threshold_m = *threshold;
+  options.planes.azimuth_step_rad = *azimuth_step;
+  options.planes.elevation_step_rad = *elevation_step;
+  options.planes.tile_size = arguments.tile;
+  if (arguments.group) options.planes.group = *arguments.group;
+  if (arguments.residual_step == "raw") {
+    options.planes.residual_mode = ResidualMode::raw_float;
+  } else if (arguments.residual_step != "auto") {
+    const auto step = parse_length_m(arguments.residual_step);
+    if (!step)
+      return Error{ErrorCode::invalid_argument,
+                   "--residual-step: " + step.error().message + ", or auto, or raw"};
+    if (*step == 0)
+      return Error{ErrorCode::invalid_argument,
+                   "--residual-step: must not be 0 (use raw for no quantisation)"};
+    options.planes.residual_step_m = *step;
+  }
+  return options;
+}
+
+}  // namespace
+
+void add_encode_arguments(CLI::App& verb, EncodeArguments& arguments) {
+  verb.add_option("INPUT", arguments.inputs,
+                  "Sweeps: files, folders or globs (KITTI .bin, nuScenes .pcd.bin, .pcd, .ply)")
+      ->required();
+  verb.add_option("-o,--output", arguments.output, "The .reel to write; - for standard output")->required();
+  verb.add_option("--method", arguments.method,
+                  "mixture: every point, within a bound; planes: the nearest point of each cell, on planes")
+      ->check(CLI::IsMember({"mixture", "planes"}))
+      ->capture_default_str();
+  verb.add_option(
+      "--group", arguments.group,
+      "Sweeps that share a key frame, 1 to 255; 1 = each by itself. Default: 10 for mixture, 5 for "
+      "planes");
+  verb.add_option("--threads", arguments.threads,
+                  "0: one per processor; the bytes are the same for any number")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
+  verb.add_flag("-f,--force", arguments.force, "Overwrite the output");
+  verb.add_flag("--json", arguments.json, "Report as JSON on standard output");
+
+  const std::string mixture = "Method mixture";
+  arguments.mixture_only = {
+      verb.add_option("--max-error", arguments.max_error,
+                      "Distance of any point from where it was at most, 0.5mm to 1m")
+          ->capture_default_str()
+          ->group(mixture),
+      verb.add_option("--fields", arguments.fields,
+                      "all, none, or a list of NAME (exact) and NAME:STEP (off by STEP at most); with all in "
+                      "the list, the others are kept as well")
+          ->capture_default_str()
+          ->group(mixture),
+      verb.add_flag("--no-temporal", arguments.no_temporal,
+                    "Predict no sweep from those before it (so far none is)")
+          ->group(mixture)};
+
+  const std::string planes = "Method planes";
+  arguments.planes_only = {
+      verb.add_option("--threshold", arguments.threshold, "Range error on planes at most, 1mm to 10m")
+          ->capture_default_str()
+          ->group(planes),
+      verb.add_option("--azimuth-step", arguments.azimuth_step, "Width of a range image cell")
+          ->capture_default_str()
+          ->group(planes),
+      verb.add_option("--elevation-step", arguments.elevation_step, "Height of a range image cell")
+          ->capture_default_str()
+          ->group(planes),
+      verb.add_option("--tile", arguments.tile, "Cells per tile side, 2 to 16")
+          ->capture_default_str()
+          ->group(planes),
+      verb.add_option(
+              "--residual-step", arguments.residual_step,
+              "Range step of cells on no plane: auto (twice the threshold), raw (float32), or a length")
+          ->capture_default_str()
+          ->group(planes)};
+  auto* poses =
+      verb.add_option("--poses", arguments.poses, "Sensor poses, one per sweep (KITTI), or with times (TUM)")
+          ->group(planes);
+  auto* imu = verb.add_option("--imu", arguments.imu,
+                              "IMU recording: .csv (t, ax, ay, az, wx, wy, wz) or a KITTI oxts folder")
+                  ->excludes(poses)
+                  ->group(planes);
+  arguments.planes_only.insert(arguments.planes_only.end(), {poses, imu});
+}
+
+Result<EncoderOptions> encoder_options(const EncodeArguments& arguments) {
+  const bool mixture = arguments.method == "mixture";
+  const auto valid = mixture ? belongs_to_method(arguments.planes_only, "planes")
+                             : belongs_to_method(arguments.mixture_only, "mixture");
+  if (!valid) return valid.error();
+  return mixture ? mixture_options(arguments) : planes_options(arguments);
+}
+
+}  // namespace pointreel

@@ -1,0 +1,44 @@
+// The command line of `encode`, and the codec's options that it means.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pointreel/codec.h"
+
+namespace pointreel {
+
+struct EncodeArguments {
+  std::vector<std::string> inputs;
+  std::string output;
+  std::string method = "mixture";
+  std::optional<int> group;  // none: the method's own default
+  // mixture
+  std::string max_error = "2cm";
+  std::string fields = "all";
+  bool no_temporal = false;  // changes nothing yet: no sweep is predicted from another
+  // planes
+  std::string threshold = "0.1";
+  std::string azimuth_step = "0.18deg";
+  std::string elevation_step = "0.45deg";
+  int tile = 4;
+  std::string residual_step = "auto";
+  std::string poses;
+  std::string imu;
+
+  int threads = 0;
+  bool force = false;
+  bool json = false;
+
+  // Options that were given though they belong to one method only.
+  std::vector<const CLI::Option*> mixture_only, planes_only;
+};
+
+void add_encode_arguments(CLI::App& verb, EncodeArguments& arguments);
+
+// Error naming the option that is wrong by itself, or with the method.
+Result<EncoderOptions> encoder_options(const EncodeArguments& arguments);
+
+}  // namespace pointreel
