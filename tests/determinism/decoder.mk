@@ -1,6 +1,6 @@
 # Builds decode_digest in the current folder: make -f decoder.mk ROOT=... SOURCES="src/... ..." CXX=... OPTIONS="..." [LIBRARIES=...]
 # Only what changed is compiled again.
-SHELL := bash
+MAKEFLAGS += --no-builtin-rules
 objects := $(addsuffix .o,$(subst /,_,$(sort $(patsubst %/,%,$(dir $(SOURCES))))))
 # The system's headers come last, for Highway and xxHash: a cross compiler has a C library of its own.
 flags := -std=c++20 -ffp-contract=off -fno-math-errno -fno-trapping-math -DXXH_INLINE_ALL -pthread -I$(ROOT)/include \
@@ -11,7 +11,7 @@ decode_digest: $(objects)
 	$(CXX) $(flags) -o $@ $^ $(LIBRARIES)
 
 # A folder at once, which saves most of the time; where two of its files use a name for different things, one by one.
-%.o: common.h.gch
+$(objects): %.o: common.h.gch
 	@printf '#include "$(ROOT)/%s"\n' $(filter $(subst _,/,$*)/%,$(SOURCES)) >$*.cpp
 	@$(compile) -MMD -MP -c -o $@ $*.cpp 2>$*.log || { \
 	  for source in $(filter $(subst _,/,$*)/%,$(SOURCES)); do \
