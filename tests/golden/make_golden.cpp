@@ -75,17 +75,14 @@ PointCloud in_firing_order(const SimulatedSweep& sweep, int columns) {
   return cloud;
 }
 
-// Half a turn of the sweep, as seen from where the sensor was at its start.
-PointCloud compensated_half(const SimulatedSweep& sweep, const SimulatedSweep& next) {
-  const std::vector<TimedPose> track = {{0, Pose::Identity()},
-                                        {1, sweep.T_world_sensor.inverse() * next.T_world_sensor}};
-  std::vector<std::size_t> half;
-  for (std::size_t i = 0; i < sweep.cloud.size(); ++i) {
-    if (turned(sweep.cloud.positions[i]) < 0.5) half.push_back(i);
-  }
-  PointCloud cloud = picked(sweep.cloud, half);
+// The sweep as seen from where the sensor was when it looked straight ahead, in the middle of a turn that
+// began behind it. T_start_end: motion over a whole turn.
+PointCloud compensated(PointCloud cloud, const Pose& T_start_end) {
+  const std::vector<TimedPose> track = {{-1, T_start_end.inverse()}, {0, Pose::Identity()}, {1, T_start_end}};
   for (Point3f& p : cloud.positions) {
-    const Eigen::Vector3d moved = interpolate_pose(track, turned(p)) * Eigen::Vector3d(p.x, p.y, p.z);
+    const double share = turned(p);
+    const Eigen::Vector3d moved =
+        interpolate_pose(track, share > 0.5 ? share - 1 : share) * Eigen::Vector3d(p.x, p.y, p.z);
     p = {static_cast<float>(moved.x()), static_cast<float>(moved.y()), static_cast<float>(moved.z())};
   }
   return cloud;
@@ -135,16 +132,19 @@ bool write(const std::string& stem, const std::vector<PointCloud>& sweeps, const
 
 bool write_all(const std::string& folder) {
   const auto low = drive(SensorKind::vlp_16, 3);
-  const auto high = drive(SensorKind::hdl_64e, 12);  // by then the car moves
+  const auto high = drive(SensorKind::hdl_64e, 1);
   std::vector<PointCloud> firing;
   for (const SimulatedSweep& sweep : low) firing.push_back(in_firing_order(sweep, 900));
+  Pose motion = Pose::Identity();
+  motion.linear() = Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  motion.translation() << 0.5, 0.01, 0;
   MixtureOptions fine, coarse;
   fine.max_error_m = 0.001;
   fine.group = 2;
   coarse.max_error_m = 0.02;
   coarse.fields.named = {{"intensity", 0.05}};
   return write(folder + "/mixture_v1_firing_order", firing, fine) &&
-         write(folder + "/mixture_v1_compensated", {compensated_half(high[10], high[11])}, coarse) &&
+         write(folder + "/mixture_v1_compensated", {compensated(high[0].cloud, motion)}, coarse) &&
          write(folder + "/mixture_v1_scattered", {scattered(low[0].cloud)}, coarse);
 }
 
