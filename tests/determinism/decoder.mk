@@ -23,4 +23,6 @@ common.h.gch: $(MAKEFILE_LIST)
 	@printf '#include <%s>\n' Eigen/Geometry algorithm array functional memory optional span string thread variant vector >common.h
 	@$(CXX) $(flags) -x c++-header -o $@ common.h
 
+# gcc's lists miss headers that Highway includes once for each instruction set.
+$(objects): $(shell find $(ROOT)/include $(ROOT)/src $(ROOT)/tests/support -name '*.h')
 -include $(objects:.o=.d)
