@@ -155,7 +155,8 @@ class Encoder {
   // Takes the next sweep. Returns the packets that are now complete: for `mixture` this sweep's, for `planes`
   // none until a group is, then all of its packets, key frame first. `planes` uses the sweep's pose in any
   // fixed frame (omit it for all sweeps when motion is unknown: they are then compared where they stand).
-  // Error: resource_limit for a sweep of more than 2^23 points; the encoder then goes on without it.
+  // Errors: resource_limit for a sweep of more than 2^23 points, invalid_argument for a field whose number of
+  // values is not that of the points; the encoder then goes on without the sweep.
   Result<std::vector<Packet>> encode(PointCloud sweep, const std::optional<Pose>& T_world_sensor = {});
   // Ends the stream: packets of the last, maybe shorter group.
   Result<std::vector<Packet>> finish();

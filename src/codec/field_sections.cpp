@@ -27,6 +27,13 @@ FieldValues in_order(const FieldValues& values, std::span<const std::uint32_t> o
 
 }  // namespace
 
+const FieldStep* FieldSelection::find(std::string_view name) const {
+  for (const FieldStep& field : named) {
+    if (field.name == name) return &field;
+  }
+  return nullptr;
+}
+
 void encode_fields(const FieldSelection& selection, const PointCloud& cloud,
                    std::span<const std::uint32_t> output_order, const CodedGeometry& geometry, int threads,
                    ByteWriter& writer, FrameStatistics& statistics) {

@@ -287,6 +287,12 @@ Result<FieldValues> decode_field(std::span<const std::uint8_t> bytes, std::size_
   const bool sane = code_field(coder, keyed, {}, layout, memory.state());
   if (coder.overran()) return Error{ErrorCode::truncated, "the bytes of a field end before its last value"};
   if (!sane) return Error{ErrorCode::corrupt, "the bytes of a field contradict themselves"};
+  // Others could make NaNs, whose bits depend on the processor.
+  const KeyMapping& mapping = keyed.mapping;
+  if (mapping.multiples && !(mapping.multiplier > 0 && mapping.multiplier <= std::numeric_limits<double>::max() &&
+                             mapping.divisor >= 1 && mapping.divisor <= std::numeric_limits<double>::max())) {
+    return Error{ErrorCode::corrupt, "the values of a field are multiples of nothing"};
+  }
   return from_keys(keyed, type);
 }
 

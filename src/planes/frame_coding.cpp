@@ -157,7 +157,7 @@ Result<KeyFrame> decode_frame(const AngularGrid& grid, std::span<const std::uint
   if (!reader.ok()) return Error{ErrorCode::truncated, "the frame's payload ends before its planes"};
   const std::size_t cells = occupancy.index(occupancy.rows, 0);
   if (occupancy.first_row + occupancy.rows >= grid.rows() + settings.tile_size ||
-      cells > std::min(kMaxCells, (occupancy_bytes.size() + kLeftOutBytes) * kMaxCellsPerByte)) {
+      cells > std::min(kMaxImageCells, (occupancy_bytes.size() + kLeftOutBytes) * kMaxCellsPerByte)) {
     return Error{ErrorCode::corrupt, "the frame's rows " + std::to_string(occupancy.first_row) + " + " +
                                          std::to_string(occupancy.rows) +
                                          " lie outside the grid or are more than its bytes can fill"};

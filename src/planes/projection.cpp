@@ -85,9 +85,9 @@ Result<RangeImage> range_image_of(const AngularGrid& grid, const std::vector<Pro
   image.first_row = first / tile_size * tile_size;
   image.rows = (last / tile_size + 1) * tile_size - image.first_row;
   const std::size_t cells = image.index(image.rows, 0);
-  if (cells > kMaxCells) {
+  if (cells > kMaxImageCells) {
     return Error{ErrorCode::resource_limit, "the sweep's range image has " + std::to_string(cells) +
-                                                " cells, more than " + std::to_string(kMaxCells) +
+                                                " cells, more than " + std::to_string(kMaxImageCells) +
                                                 ": choose a coarser --azimuth-step or --elevation-step"};
   }
   image.range_m.assign(cells, 0.0f);

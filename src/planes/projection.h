@@ -16,7 +16,7 @@ namespace pointreel {
 // counted as lost with the collided ones.
 inline constexpr double kFarthestPoint_m = 100'000;
 // Cells of a range image at most: bounds the memory that any input, or any bytes, can ask for.
-inline constexpr std::size_t kMaxCells = std::size_t{1} << 24;
+inline constexpr std::size_t kMaxImageCells = std::size_t{1} << 24;
 
 // Where each point of a cloud falls: its range after moving it by T_key_sensor, and its cell; range 0 =
 // nowhere.
@@ -27,7 +27,7 @@ struct ProjectedPoint {
 std::vector<ProjectedPoint> project_points(const AngularGrid& grid, const PointCloud& cloud,
                                            const Pose& T_key_sensor, int threads = 1);
 
-// Nearest point of each cell. Error resource_limit when the used band of rows has more than kMaxCells cells.
+// Nearest point of each cell. Error resource_limit when the used band of rows has more than kMaxImageCells cells.
 Result<RangeImage> range_image_of(const AngularGrid& grid, const std::vector<ProjectedPoint>& points,
                                   int tile_size);
 

@@ -28,10 +28,14 @@ struct Floats {
   static constexpr std::size_t kPartLanes = hn::MaxLanes(Tag());
   static constexpr std::size_t kParts = N / kPartLanes;
   hn::Vec<Tag> part[kParts];
+
+  HWY_INLINE Floats() {}  // gcc's own would not be compiled for the instruction set
 };
 template <std::size_t N>
 struct Mask {
   hn::Mask<typename Floats<N>::Tag> part[Floats<N>::kParts];
+
+  HWY_INLINE Mask() {}
 };
 using Float8 = Floats<8>;
 using Float16 = Floats<16>;

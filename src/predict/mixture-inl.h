@@ -67,6 +67,8 @@ class Mixture {
     Float16 signed_cdf;
     Float16 slope;  // z G'(z)
     float mixed;
+
+    HWY_INLINE Border() {}
   };
 
   // Takes the lane of the blend: the mean of the other proposals, weighted by the inverse fourth power of

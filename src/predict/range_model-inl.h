@@ -77,10 +77,11 @@ class RangeModel {
   static float at_least_smallest(float range_m) {
     return range_m > CausalCanvas::kSmallestRangeM ? range_m : CausalCanvas::kSmallestRangeM;
   }
-  // To the nearest; damaged streams give ranges beyond any step.
+  // Hostile streams reach beyond the integers, where processors disagree about conversions.
   static std::int32_t rounded(float x) {
     constexpr float kMost = 1 << 30;
-    x = x < -kMost ? -kMost : x > kMost ? kMost : x;
+    x = x < kMost ? x : kMost;
+    x = x > -kMost ? x : -kMost;
     return x < 0 ? -static_cast<std::int32_t>(0.5F - x) : static_cast<std::int32_t>(x + 0.5F);
   }
   float on_lattice(float range_m) const {

@@ -90,7 +90,7 @@ TEST(CraftedReels, AbsurdRowCountsOfTinyPackets) {
 
 // A few kilobytes that decode to the largest image there can be, all cells occupied: key and predicted.
 TEST(CraftedReels, TheLargestImagesInTheFewestBytes) {
-  const int rows = static_cast<int>(kMaxCells) / kFinestColumns / 2;
+  const int rows = static_cast<int>(kMaxImageCells) / kFinestColumns / 2;
   const auto points = static_cast<std::uint32_t>(rows * 2 * kFinestColumns);
   for (const std::size_t bytes : {3'000u, 100'000u}) {
     std::vector<Packet> packets = {crafted_packet(0, 0, frame_payload(0, rows, bytes, 0), points)};
@@ -108,7 +108,7 @@ TEST(CraftedReels, ValidFramesOfTheMostPoints) {
   const StreamHeader header = finest_header(16);
   const auto grid = AngularGrid::create(0.0003, 0.0003);
   RangeImage image;
-  image.rows = static_cast<int>(kMaxCells) / kFinestColumns / 16 * 16;
+  image.rows = static_cast<int>(kMaxImageCells) / kFinestColumns / 16 * 16;
   image.columns = kFinestColumns;
   image.first_row = kFinestRows / 2 / 16 * 16;
   image.range_m.assign(image.index(image.rows, 0), 10.0f);
@@ -127,7 +127,7 @@ TEST(CraftedReels, ValidFramesOfTheMostPoints) {
 }
 
 TEST(CraftedReels, RowsBeyondTheMostCellsAreErrors) {
-  const int rows = static_cast<int>(kMaxCells) / kFinestColumns / 2 + 1;
+  const int rows = static_cast<int>(kMaxImageCells) / kFinestColumns / 2 + 1;
   const Outcome outcome =
       survive(reel_of(finest_header(), {crafted_packet(0, 0, frame_payload(0, rows, 100'000, 0), 1)}));
   EXPECT_EQ(outcome.errors, 1u);

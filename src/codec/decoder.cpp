@@ -1,0 +1,29 @@
+#include "codec/method.h"
+#include "pointreel/codec.h"
+
+namespace pointreel {
+
+Decoder::Decoder(std::unique_ptr<Implementation> implementation)
+    : implementation_(std::move(implementation)) {}
+Decoder::Decoder(Decoder&&) noexcept = default;
+Decoder& Decoder::operator=(Decoder&&) noexcept = default;
+Decoder::~Decoder() = default;
+
+Result<Decoder> Decoder::create(const StreamHeader& header, const Runtime& runtime) {
+  auto implementation = header.method == Method::planes ? make_planes_decoder(header, runtime)
+                                                        : make_mixture_decoder(header, runtime);
+  if (!implementation) return implementation.error();
+  return Decoder(*std::move(implementation));
+}
+
+std::vector<Result<DecodedSweep>> Decoder::decode(std::span<const Packet> packets) {
+  return implementation_->decode(packets);
+}
+
+Result<std::vector<std::int64_t>> pair_points(const StreamHeader& header, const PointCloud& original,
+                                              const DecodedSweep& decoded) {
+  return header.method == Method::planes ? pair_planes_points(header, original, decoded)
+                                         : pair_mixture_points(header, original, decoded);
+}
+
+}  // namespace pointreel
