@@ -56,7 +56,8 @@ template <class Ingredients>
 double bits_of_all(const std::vector<TrainingImage>& images, const RangeQuantiser& quantiser,
                    const RangeModelState* start = nullptr) {
   double bits = 0;
-  for (const TrainingImage& training : images) bits += range_bits<Ingredients>(training.image, quantiser, start);
+  for (const TrainingImage& training : images)
+    bits += range_bits<Ingredients>(training.image, quantiser, start);
   return bits;
 }
 
@@ -66,7 +67,8 @@ struct CodedBits {
 };
 
 // Each sweep from the priors, or with what the sweeps before have taught.
-CodedBits coded_bits(const std::vector<TrainingImage>& images, const RangeQuantiser& quantiser, bool keeps_state) {
+CodedBits coded_bits(const std::vector<TrainingImage>& images, const RangeQuantiser& quantiser,
+                     bool keeps_state) {
   CodedBits bits;
   std::vector<BandState> states;
   for (const TrainingImage& training : images) {
@@ -96,7 +98,8 @@ void report(const std::vector<TrainingImage>& images, float step_m) {
     fmt::print("| {:<58} | {:.3f} | {:+.1f} % |\n", name, bits / points, 100 * (bits / all - 1));
   };
   const RangeModelState untrained;
-  fmt::print("| {:<58} | bpp | against all |\n|---|---|---|\n", "ranges, step " + fmt::format("{:g} m", step_m));
+  fmt::print("| {:<58} | bpp | against all |\n|---|---|---|\n",
+             "ranges, step " + fmt::format("{:g} m", step_m));
   print("all ingredients", all);
   print("without priors (state as new)", bits_of_all<AllIngredients>(images, quantiser, &untrained));
   print("without the second stage", bits_of_all<WithoutSecondStage>(images, quantiser));
@@ -106,13 +109,16 @@ void report(const std::vector<TrainingImage>& images, float step_m) {
   print("without the line in the row", bits_of_all<WithoutExperts<1 << 3>>(images, quantiser));
   print("without the parallel to the row above", bits_of_all<WithoutExperts<1 << 4>>(images, quantiser));
   print("without the three fits", bits_of_all<WithoutExperts<0b11100>>(images, quantiser));
-  print("without the second and third range to the left", bits_of_all<WithoutExperts<0b11 << 11>>(images, quantiser));
+  print("without the second and third range to the left",
+        bits_of_all<WithoutExperts<0b11 << 11>>(images, quantiser));
   print("without the ranges behind edges", bits_of_all<WithoutExperts<0b11 << 14>>(images, quantiser));
   print("without the row above (as expert)", bits_of_all<WithoutExperts<0b1111 << 7>>(images, quantiser));
   print("blend and first guess only", bits_of_all<WithoutExperts<0xFFBE>>(images, quantiser));
   fmt::print("\nhit mask: {:.3f} bpp\n", alone.mask / points);
-  fmt::print("mask and ranges: {:.3f} bpp each sweep by itself, {:.3f} with the state kept from sweep to sweep ({:+.1f} %)\n",
-             alone.sum() / points, running.sum() / points, 100 * (alone.sum() / running.sum() - 1));
+  fmt::print(
+      "mask and ranges: {:.3f} bpp each sweep by itself, {:.3f} with the state kept from sweep to sweep "
+      "({:+.1f} %)\n",
+      alone.sum() / points, running.sum() / points, 100 * (alone.sum() / running.sum() - 1));
 }
 
 }  // namespace HWY_NAMESPACE
@@ -124,7 +130,8 @@ int main(int argc, char** argv) {
   std::vector<std::string> sweeps;
   double max_error_m = 0.02;
   app.add_option("SWEEP", sweeps, "Sweeps: files, folders or globs")->required();
-  app.add_option("--max-error", max_error_m, "Bound in metres; ranges have steps of twice that")->capture_default_str();
+  app.add_option("--max-error", max_error_m, "Bound in metres; ranges have steps of twice that")
+      ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {
     pointreel::HWY_NAMESPACE::report(pointreel::training_images(sweeps), static_cast<float>(2 * max_error_m));

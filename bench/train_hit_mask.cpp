@@ -134,7 +134,8 @@ void print_priors(const HitMaskState& state) {
   }
   std::vector<int> weights;
   for (const auto& mixer : state.mixers) {
-    for (std::size_t input = 0; input < HitMaskState::kContexts; ++input) weights.push_back(prior_weight(mixer, input));
+    for (std::size_t input = 0; input < HitMaskState::kContexts; ++input)
+      weights.push_back(prior_weight(mixer, input));
   }
   fmt::print(
       "// Made by bench/train_hit_mask.\n#include \"predict/hit_mask_priors.h\"\n\nnamespace pointreel {{\n\n"

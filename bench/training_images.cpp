@@ -31,7 +31,8 @@ std::vector<TrainingImage> training_images(const std::vector<std::string>& sweep
     TrainingImage image{grid.empty_image(), follows};
     for (std::size_t i = 0; i < cloud.size(); ++i) {
       if (sweep.cell_of_point[i] >= 0) {
-        image.image.range_m[grid.image_index(static_cast<std::size_t>(sweep.cell_of_point[i]))] = sweep.range_m[i];
+        image.image.range_m[grid.image_index(static_cast<std::size_t>(sweep.cell_of_point[i]))] =
+            sweep.range_m[i];
       }
     }
     images.push_back(std::move(image));

@@ -63,8 +63,9 @@ struct FieldSelection {
 // dropped and counted. Clouds of rotating sensors are coded on the sensor's own grid, which is found from the
 // sweeps; any other cloud by an octree.
 struct MixtureOptions {
-  double max_error_m = 0.02;  // distance in space of each point to its own decoded float32 position; 0.0005 to 1
-  int group = 10;             // sweeps per group, 1 to 255: the first holds the sensor model for the others
+  double max_error_m =
+      0.02;        // distance in space of each point to its own decoded float32 position; 0.0005 to 1
+  int group = 10;  // sweeps per group, 1 to 255: the first holds the sensor model for the others
   FieldSelection fields;
 };
 
@@ -83,8 +84,8 @@ struct StreamHeader {
   PlanesOptions planes;       // `planes` only, with residual_step_m resolved
 
   // `mixture`: largest distance of a point to its own decoded position. `planes`: largest range error of a
-  // kept point: the threshold, or half the residual step if that is more (decoded positions are float32; where
-  // their rounding matters, 1 mm at 10 km, it comes on top).
+  // kept point: the threshold, or half the residual step if that is more (decoded positions are float32;
+  // where their rounding matters, 1 mm at 10 km, it comes on top).
   double bound_m() const;
 };
 
@@ -197,8 +198,9 @@ class Decoder {
 };
 
 // Index into decoded.cloud of each original point's own decoded point; -1 for points that the method gave up
-// (`planes`: another point of the cell was nearer; not finite). `original` must be the sweep that was encoded.
-// Where the order was not kept, points are matched one to one within the bound; those that cannot be get -1.
+// (`planes`: another point of the cell was nearer; not finite). `original` must be the sweep that was
+// encoded. Where the order was not kept, points are matched one to one within the bound; those that cannot be
+// get -1.
 Result<std::vector<std::int64_t>> pair_points(const StreamHeader& header, const PointCloud& original,
                                               const DecodedSweep& decoded);
 

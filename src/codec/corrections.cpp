@@ -41,7 +41,8 @@ double CorrectionSteps::reach_m() const {
   return std::exp2(std::floor(std::log2(kRoundingShare * max_error_m_)) + 25);
 }
 
-Correction CorrectionSteps::between(std::uint32_t index, const Point3f& decoded, const Point3f& original) const {
+Correction CorrectionSteps::between(std::uint32_t index, const Point3f& decoded,
+                                    const Point3f& original) const {
   const auto steps = [this](float from, float to) {
     return static_cast<std::int32_t>(std::lround((static_cast<double>(to) - from) / edge_m_));
   };
@@ -79,8 +80,8 @@ Result<std::vector<Correction>> decode_corrections(std::span<const std::uint8_t>
   for (std::uint32_t gap = models.code_gap(coder, 0); gap != 0; gap = models.code_gap(coder, 0)) {
     const std::uint64_t index = next + gap - 1;
     if (index >= points || coder.overran()) {
-      return Error{ErrorCode::corrupt, "a correction names point " + std::to_string(index) + " of " +
-                                           std::to_string(points)};
+      return Error{ErrorCode::corrupt,
+                   "a correction names point " + std::to_string(index) + " of " + std::to_string(points)};
     }
     Correction correction{static_cast<std::uint32_t>(index), {}};
     models.code_steps(coder, correction.steps);

@@ -32,7 +32,9 @@ RangeQuantiser choose_quantiser(const SensorModel& model, const GriddedSweep& sw
   // border of their bin miss.
   for (const double share : {1.0, 0.999, 0.99, 0.97, 0.9, 0.75, 0.5, 0.25, 0.0}) {
     const double deviation_m =
-        deviations_m.empty() ? 0 : deviations_m[static_cast<std::size_t>(share * static_cast<double>(deviations_m.size() - 1))];
+        deviations_m.empty()
+            ? 0
+            : deviations_m[static_cast<std::size_t>(share * static_cast<double>(deviations_m.size() - 1))];
     const double left_m = std::sqrt(std::max(0.0, max_error_m * max_error_m - deviation_m * deviation_m));
     const double step_m = 2 * (left_m - kFloatRounding * farthest_m);
     if (step_m < max_error_m / 8) continue;

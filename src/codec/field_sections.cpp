@@ -54,7 +54,8 @@ void encode_fields(const FieldSelection& selection, const PointCloud& cloud,
   const PointLayout layout = layout_of(geometry);
   parallel_for(chosen.size(), threads, [&](std::size_t i) {
     FieldMemory memory;
-    chosen[i].bytes = encode_field(in_order(chosen[i].field->values, output_order), chosen[i].step, layout, memory);
+    chosen[i].bytes =
+        encode_field(in_order(chosen[i].field->values, output_order), chosen[i].step, layout, memory);
   });
   for (const Chosen& part : chosen) {
     const std::string& name = part.field->name;
@@ -92,7 +93,8 @@ Result<std::vector<Field>> decode_fields(const CodedGeometry& geometry, int thre
   });
   for (std::size_t i = 0; i < parts.size(); ++i) {
     fields[i].name.assign(parts[i].name.begin(), parts[i].name.end());
-    if (!values[i]) return Error{values[i].error().code, "field " + fields[i].name + ": " + values[i].error().message};
+    if (!values[i])
+      return Error{values[i].error().code, "field " + fields[i].name + ": " + values[i].error().message};
     fields[i].values = *std::move(values[i]);
   }
   return fields;

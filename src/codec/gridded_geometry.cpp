@@ -18,12 +18,14 @@
 namespace pointreel {
 namespace {
 
-double bits_of(std::size_t bytes) { return 8.0 * static_cast<double>(bytes); }
+double bits_of(std::size_t bytes) {
+  return 8.0 * static_cast<double>(bytes);
+}
 
 // Points that float32 ranges and positions cannot hold within the bound leave the grid.
 void drop_unreachable(const PointCloud& cloud, double max_error_m, GriddedSweep& sweep) {
-  const auto reach_m = static_cast<float>(
-      std::min(CorrectionSteps(max_error_m).reach_m(), max_error_m * static_cast<double>(kMostRangeSteps) / 16));
+  const auto reach_m = static_cast<float>(std::min(CorrectionSteps(max_error_m).reach_m(),
+                                                   max_error_m * static_cast<double>(kMostRangeSteps) / 16));
   constexpr float kNearestM = 0.01F;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Point3f& p = cloud.positions[i];
@@ -52,7 +54,8 @@ struct DecodedCells {
 };
 
 // One position a cell of the sensor grid; those of empty cells mean nothing.
-std::vector<Point3f> positions_of_cells(const RayTable& rays, std::span<const float> range_of_cell_m, int threads) {
+std::vector<Point3f> positions_of_cells(const RayTable& rays, std::span<const float> range_of_cell_m,
+                                        int threads) {
   std::vector<Point3f> positions(range_of_cell_m.size());
   const std::size_t columns = rays.column_count();
   parallel_for(rays.row_count(), threads, [&](std::size_t row) {
@@ -111,7 +114,8 @@ Result<RangeQuantiser> get_quantiser(ByteReader& reader, const SensorModel& mode
 }  // namespace
 
 EncodedGeometry encode_gridded(const SensorModel& model, const PointCloud& cloud, GriddedSweep sweep,
-                               double max_error_m, int threads, ByteWriter& writer, FrameStatistics& statistics) {
+                               double max_error_m, int threads, ByteWriter& writer,
+                               FrameStatistics& statistics) {
   drop_unreachable(cloud, max_error_m, sweep);
   const auto grid_bytes = encode_sweep_grid(model, sweep.grid);
   put_section(writer, grid_bytes);
@@ -223,8 +227,8 @@ Result<DecodedGeometry> decode_gridded(const SensorModel& model, std::size_t poi
   const DecodedCells decoded(coding, image, threads);
   auto cells = cells_in_order(decoded.occupied, decoded.range_m, model, *grid);
   if (cells.size() > points_out) {
-    return Error{ErrorCode::corrupt, "its grid holds " + std::to_string(cells.size()) + " points, more than its " +
-                                         std::to_string(points_out)};
+    return Error{ErrorCode::corrupt, "its grid holds " + std::to_string(cells.size()) +
+                                         " points, more than its " + std::to_string(points_out)};
   }
   const auto moves = decode_moves(cells.size(), get_section(reader));
   if (!moves) return moves.error();

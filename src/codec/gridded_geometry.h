@@ -16,9 +16,9 @@ namespace pointreel {
 
 // What both sides know of a sweep's points once its geometry is coded; one entry a point, in output order.
 struct CodedGeometry {
-  std::uint32_t rows = 0, columns = 0;         // of the coding image; 0 when there is none
-  std::vector<std::int32_t> cell_of_point;     // in the image; -1: off the grid
-  std::vector<float> range_m;                  // decoded, along the ray; 0 off the grid
+  std::uint32_t rows = 0, columns = 0;      // of the coding image; 0 when there is none
+  std::vector<std::int32_t> cell_of_point;  // in the image; -1: off the grid
+  std::vector<float> range_m;               // decoded, along the ray; 0 off the grid
   bool order_kept = true;
 };
 
@@ -29,7 +29,8 @@ struct EncodedGeometry {
 
 // All points of `cloud` must be finite. `sweep`: its projection. Appends to `writer`.
 EncodedGeometry encode_gridded(const SensorModel& model, const PointCloud& cloud, GriddedSweep sweep,
-                               double max_error_m, int threads, ByteWriter& writer, FrameStatistics& statistics);
+                               double max_error_m, int threads, ByteWriter& writer,
+                               FrameStatistics& statistics);
 
 struct DecodedGeometry {
   CodedGeometry geometry;

@@ -1,5 +1,5 @@
-// Method `mixture`, the way back: sensor model -> cells and ranges -> points in order -> corrections, strays ->
-// fields.
+// Method `mixture`, the way back: sensor model -> cells and ranges -> points in order -> corrections, strays
+// -> fields.
 #include <optional>
 #include <string>
 
@@ -27,7 +27,8 @@ class MixtureDecoder final : public Decoder::Implementation {
     for (const Packet& packet : packets) {
       auto sweep = decode(packet);
       if (!sweep) {
-        sweep = Error{sweep.error().code, "frame " + std::to_string(packet.frame) + ": " + sweep.error().message};
+        sweep =
+            Error{sweep.error().code, "frame " + std::to_string(packet.frame) + ": " + sweep.error().message};
       }
       sweeps.push_back(std::move(sweep));
     }
@@ -42,7 +43,8 @@ class MixtureDecoder final : public Decoder::Implementation {
     ByteReader reader(packet.payload);
     const auto coding = reader.get<SweepCoding>();
     if (!reader.ok()) return Error{ErrorCode::truncated, "its payload is empty"};
-    if (coding > SweepCoding::gridded_model) return Error{ErrorCode::unsupported, "it is coded in an unknown way"};
+    if (coding > SweepCoding::gridded_model)
+      return Error{ErrorCode::unsupported, "it is coded in an unknown way"};
     if ((coding == SweepCoding::gridded) != (packet.kind == FrameKind::predicted)) {
       return Error{ErrorCode::corrupt, "its kind and its coding contradict each other"};
     }
@@ -81,8 +83,8 @@ class MixtureDecoder final : public Decoder::Implementation {
     auto points = decode_scattered(get_section(reader), header_.max_error_m, packet.points_out);
     if (!points) return points.error();
     if (points->size() != packet.points_out) {
-      return Error{ErrorCode::corrupt, "it decodes to " + std::to_string(points->size()) + " points instead of " +
-                                           std::to_string(packet.points_out)};
+      return Error{ErrorCode::corrupt, "it decodes to " + std::to_string(points->size()) +
+                                           " points instead of " + std::to_string(packet.points_out)};
     }
     DecodedGeometry geometry;
     geometry.geometry.cell_of_point.assign(points->size(), -1);
@@ -112,12 +114,13 @@ Result<std::vector<std::int64_t>> pair_mixture_points(const StreamHeader& header
   if (const auto valid = validate(header); !valid) return valid.error();
   const std::size_t finite = original.size() - original.count_non_finite();
   if (finite != decoded.cloud.size()) {
-    return Error{ErrorCode::invalid_argument, "frame " + std::to_string(decoded.frame) + ": the original has " +
-                                                  std::to_string(finite) + " finite points but " +
-                                                  std::to_string(decoded.cloud.size()) +
-                                                  " were decoded: not the same sweep"};
+    return Error{ErrorCode::invalid_argument,
+                 "frame " + std::to_string(decoded.frame) + ": the original has " + std::to_string(finite) +
+                     " finite points but " + std::to_string(decoded.cloud.size()) +
+                     " were decoded: not the same sweep"};
   }
-  if (!decoded.order_kept) return match_points(original.positions, decoded.cloud.positions, header.max_error_m);
+  if (!decoded.order_kept)
+    return match_points(original.positions, decoded.cloud.positions, header.max_error_m);
   std::vector<std::int64_t> pairs(original.size(), -1);
   std::int64_t next = 0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {

@@ -54,8 +54,8 @@ class MixtureEncoder final : public Encoder::Implementation {
     }
     if (sweep.fields.size() > kMostFields) {
       return Error{ErrorCode::resource_limit, "frame " + std::to_string(next_frame_) + " has " +
-                                                  std::to_string(sweep.fields.size()) + " fields, more than " +
-                                                  std::to_string(kMostFields)};
+                                                  std::to_string(sweep.fields.size()) +
+                                                  " fields, more than " + std::to_string(kMostFields)};
     }
     Packet packet;
     packet.frame = next_frame_;
@@ -68,8 +68,10 @@ class MixtureEncoder final : public Encoder::Implementation {
     EncodedGeometry encoded;
     if (auto gridded = on_grid(cloud)) {
       const bool brings_model = !model_frame_ || model_age_ >= header_.group;
-      if (brings_model) put_model(writer, packet.statistics);
-      else writer.put(SweepCoding::gridded);
+      if (brings_model)
+        put_model(writer, packet.statistics);
+      else
+        writer.put(SweepCoding::gridded);
       encoded = encode_gridded(*model_, cloud, *std::move(gridded), header_.max_error_m, threads_, writer,
                                packet.statistics);
       ++model_age_;
@@ -77,7 +79,8 @@ class MixtureEncoder final : public Encoder::Implementation {
       encoded = encode_scattered_sweep(cloud, writer, packet.statistics);
       model_frame_.reset();
     }
-    encode_fields(fields_, cloud, encoded.output_order, encoded.geometry, threads_, writer, packet.statistics);
+    encode_fields(fields_, cloud, encoded.output_order, encoded.geometry, threads_, writer,
+                  packet.statistics);
 
     packet.kind = model_frame_ && *model_frame_ != packet.frame ? FrameKind::predicted : FrameKind::key;
     if (packet.kind == FrameKind::key && packet.frame != 0) ++next_group_;
@@ -129,7 +132,8 @@ class MixtureEncoder final : public Encoder::Implementation {
     model_age_ = 0;
   }
 
-  EncodedGeometry encode_scattered_sweep(const PointCloud& cloud, ByteWriter& writer, FrameStatistics& statistics) {
+  EncodedGeometry encode_scattered_sweep(const PointCloud& cloud, ByteWriter& writer,
+                                         FrameStatistics& statistics) {
     writer.put(SweepCoding::scattered);
     auto points = encode_scattered(cloud.positions, header_.max_error_m);
     put_section(writer, points.bytes);
@@ -147,10 +151,10 @@ class MixtureEncoder final : public Encoder::Implementation {
   int threads_;
   GridOptions grid_options_;
   SensorEstimator estimator_;
-  std::optional<SensorModel> model_;           // of this group
-  std::optional<std::uint32_t> model_frame_;   // the frame that brought it
-  std::optional<SweepGrid> last_grid_;         // of the sweep before
-  int model_age_ = 0;                          // sweeps coded with it
+  std::optional<SensorModel> model_;          // of this group
+  std::optional<std::uint32_t> model_frame_;  // the frame that brought it
+  std::optional<SweepGrid> last_grid_;        // of the sweep before
+  int model_age_ = 0;                         // sweeps coded with it
   std::uint32_t next_frame_ = 0;
   std::uint32_t next_group_ = 0;
 };

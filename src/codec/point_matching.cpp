@@ -23,7 +23,8 @@ struct CubeHash {
 class Cubes {
  public:
   Cubes(std::span<const Point3f> points, double edge_m) : points_(points), edge_m_(edge_m) {
-    for (std::size_t i = 0; i < points.size(); ++i) cubes_[cube_of(points[i])].push_back(static_cast<std::int64_t>(i));
+    for (std::size_t i = 0; i < points.size(); ++i)
+      cubes_[cube_of(points[i])].push_back(static_cast<std::int64_t>(i));
   }
   // All within the edge of `p`, nearest first.
   std::vector<std::int64_t> near(const Point3f& p) const {

@@ -289,8 +289,9 @@ Result<FieldValues> decode_field(std::span<const std::uint8_t> bytes, std::size_
   if (!sane) return Error{ErrorCode::corrupt, "the bytes of a field contradict themselves"};
   // Others could make NaNs, whose bits depend on the processor.
   const KeyMapping& mapping = keyed.mapping;
-  if (mapping.multiples && !(mapping.multiplier > 0 && mapping.multiplier <= std::numeric_limits<double>::max() &&
-                             mapping.divisor >= 1 && mapping.divisor <= std::numeric_limits<double>::max())) {
+  if (mapping.multiples &&
+      !(mapping.multiplier > 0 && mapping.multiplier <= std::numeric_limits<double>::max() &&
+        mapping.divisor >= 1 && mapping.divisor <= std::numeric_limits<double>::max())) {
     return Error{ErrorCode::corrupt, "the values of a field are multiples of nothing"};
   }
   return from_keys(keyed, type);

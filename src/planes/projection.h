@@ -27,7 +27,8 @@ struct ProjectedPoint {
 std::vector<ProjectedPoint> project_points(const AngularGrid& grid, const PointCloud& cloud,
                                            const Pose& T_key_sensor, int threads = 1);
 
-// Nearest point of each cell. Error resource_limit when the used band of rows has more than kMaxImageCells cells.
+// Nearest point of each cell. Error resource_limit when the used band of rows has more than kMaxImageCells
+// cells.
 Result<RangeImage> range_image_of(const AngularGrid& grid, const std::vector<ProjectedPoint>& points,
                                   int tile_size);
 

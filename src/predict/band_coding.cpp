@@ -4,7 +4,8 @@
 #include <string>
 
 // SSE4, AVX2 and NEON carry their weight; AVX-512 is slower here, its wide divisions and square roots are.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
+#define HWY_DISABLED_TARGETS \
+  (HWY_SSSE3 | HWY_AVX3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
 #define HWY_TARGET_INCLUDE "predict/band_coding.cpp"
 #include "hwy/foreach_target.h"
 //
@@ -25,7 +26,8 @@ bool code_band(Coder& mask_coder, Coder& range_coder, const RangeQuantiser& quan
   for (int row = 0; row < band.rows; ++row) {
     const int image_row = band.first_row + row;
     mask.begin_row();
-    ranges.start_row(row, quantiser.on_lattice() ? quantiser.lattice_phase_m[static_cast<std::size_t>(image_row)] : 0);
+    ranges.start_row(
+        row, quantiser.on_lattice() ? quantiser.lattice_phase_m[static_cast<std::size_t>(image_row)] : 0);
     float* range_m = &image.range_m[image.index(image_row, 0)];
     for (int column = 0; column < image.columns; ++column) {
       if (!mask.code(mask_coder, range_m[column] > 0)) continue;
@@ -64,7 +66,8 @@ HWY_EXPORT(decode);
 
 std::vector<Band> bands_of(int rows, int columns) {
   constexpr int kCellsPerBand = 70'000;
-  const int wanted = static_cast<int>((static_cast<std::int64_t>(rows) * columns + kCellsPerBand / 2) / kCellsPerBand);
+  const int wanted =
+      static_cast<int>((static_cast<std::int64_t>(rows) * columns + kCellsPerBand / 2) / kCellsPerBand);
   const int count = std::clamp(wanted, 1, std::max(1, rows / 8));
   std::vector<Band> bands;
   for (int i = 0; i < count; ++i) {
@@ -82,11 +85,13 @@ CodedBand encode_band(const RangeQuantiser& quantiser, const Band& band, GridIma
   return HWY_DYNAMIC_DISPATCH(encode)(quantiser, band, image, state);
 }
 
-Result<void> decode_band(const RangeQuantiser& quantiser, const Band& band, std::span<const std::uint8_t> mask,
-                         std::span<const std::uint8_t> ranges, GridImage& image, BandState& state) {
+Result<void> decode_band(const RangeQuantiser& quantiser, const Band& band,
+                         std::span<const std::uint8_t> mask, std::span<const std::uint8_t> ranges,
+                         GridImage& image, BandState& state) {
   if (!HWY_DYNAMIC_DISPATCH(decode)(quantiser, band, mask, ranges, image, state)) {
-    return Error{ErrorCode::truncated, "the ranges end before the last of rows " + std::to_string(band.first_row) +
-                                           " to " + std::to_string(band.first_row + band.rows - 1)};
+    return Error{ErrorCode::truncated, "the ranges end before the last of rows " +
+                                           std::to_string(band.first_row) + " to " +
+                                           std::to_string(band.first_row + band.rows - 1)};
   }
   return {};
 }

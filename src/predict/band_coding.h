@@ -40,8 +40,9 @@ struct CodedBand {
 CodedBand encode_band(const RangeQuantiser& quantiser, const Band& band, GridImage& image, BandState& state);
 
 // Fills the band's rows of `image`. Error: truncated, when there are fewer bytes than the cells need.
-Result<void> decode_band(const RangeQuantiser& quantiser, const Band& band, std::span<const std::uint8_t> mask,
-                         std::span<const std::uint8_t> ranges, GridImage& image, BandState& state);
+Result<void> decode_band(const RangeQuantiser& quantiser, const Band& band,
+                         std::span<const std::uint8_t> mask, std::span<const std::uint8_t> ranges,
+                         GridImage& image, BandState& state);
 
 inline constexpr float kMostRangeSteps = 1 << 24;
 

@@ -19,12 +19,15 @@ namespace HWY_NAMESPACE {
 
 // Extrapolations beyond these shares of the range left of the cell are noise.
 inline constexpr float kNearest = 0.6F, kFarthest = 1.5F, kAny = 1e30F;
-alignas(64) inline constexpr float kNearestShares[kExperts] = {0, kNearest, kNearest, kNearest, kNearest, kNearest};
-alignas(64) inline constexpr float kFarthestShares[kExperts] = {kAny,     kFarthest, kFarthest, kFarthest, kFarthest, kFarthest,
-                                                            kAny,     kAny,      kAny,      kAny,      kAny,      kAny,
-                                                            kAny,     kAny,      kAny,      kAny};
+alignas(64) inline constexpr float kNearestShares[kExperts] = {0,        kNearest, kNearest,
+                                                               kNearest, kNearest, kNearest};
+alignas(64) inline constexpr float kFarthestShares[kExperts] = {
+    kAny, kFarthest, kFarthest, kFarthest, kFarthest, kFarthest, kAny, kAny,
+    kAny, kAny,      kAny,      kAny,      kAny,      kAny,      kAny, kAny};
 
-HWY_INLINE float inverted(float inverse_range) { return inverse_range > 1e-6F ? 1 / inverse_range : 0; }
+HWY_INLINE float inverted(float inverse_range) {
+  return inverse_range > 1e-6F ? 1 / inverse_range : 0;
+}
 
 // One range per expert in metres, all positive. Lane 0 is left for the blend (mixture-inl.h).
 template <class Ingredients>
@@ -61,8 +64,11 @@ HWY_INLINE Float16 propose_ranges(const CausalCanvas& canvas, std::size_t index,
   // Linear in inverse range, as planes are.
   const LocalFits fits = fit_locally(canvas, index, start, up);
   seen_m[2] = seen_m[3] = seen_m[4] = 0;
-  const Float16 raw_m = with_lane<2>(with_lane<3>(with_lane<4>(load<16>(seen_m), inverted(fits.parallel)), inverted(fits.line)), inverted(fits.plane));
-  const Mask<16> usable = (start * load<16>(kNearestShares) <= raw_m) & (raw_m <= start * load<16>(kFarthestShares)) &
+  const Float16 raw_m =
+      with_lane<2>(with_lane<3>(with_lane<4>(load<16>(seen_m), inverted(fits.parallel)), inverted(fits.line)),
+                   inverted(fits.plane));
+  const Mask<16> usable = (start * load<16>(kNearestShares) <= raw_m) &
+                          (raw_m <= start * load<16>(kFarthestShares)) &
                           (all<16>(CausalCanvas::kSmallestRangeM) <= raw_m);
   const Float16 proposals_m = select(usable, raw_m, all<16>(start));
   if constexpr (Ingredients::kExpertsOff != 0) {

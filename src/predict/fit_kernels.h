@@ -7,8 +7,8 @@ namespace pointreel {
 
 struct FitKernels {
   static constexpr std::size_t kLanes = 8;
-  static constexpr int kFirstHere = -8;   // column of lane 0 seen from the cell, in its own row
-  static constexpr int kFirstAbove = -4;  // and in the two rows above
+  static constexpr int kFirstHere = -8;       // column of lane 0 seen from the cell, in its own row
+  static constexpr int kFirstAbove = -4;      // and in the two rows above
   static constexpr float kColumnsPerRow = 3;  // rows are farther apart than columns on most sensors
 
   alignas(32) float x_here[kLanes] = {}, x_above[kLanes] = {};

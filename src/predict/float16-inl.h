@@ -50,12 +50,14 @@ HWY_INLINE Floats<N> each(const Operation& operation) {
 template <std::size_t N>
 HWY_INLINE Floats<N> load(const float* lanes) {
   using F = Floats<N>;
-  return each<N>([&](std::size_t i) HWY_ATTR { return hn::LoadU(typename F::Tag(), lanes + i * F::kPartLanes); });
+  return each<N>([&](std::size_t i)
+                     HWY_ATTR { return hn::LoadU(typename F::Tag(), lanes + i * F::kPartLanes); });
 }
 template <std::size_t N>
 HWY_INLINE void store(const Floats<N>& a, float* lanes) {
   using F = Floats<N>;
-  for (std::size_t i = 0; i < F::kParts; ++i) hn::StoreU(a.part[i], typename F::Tag(), lanes + i * F::kPartLanes);
+  for (std::size_t i = 0; i < F::kParts; ++i)
+    hn::StoreU(a.part[i], typename F::Tag(), lanes + i * F::kPartLanes);
 }
 template <std::size_t N>
 HWY_INLINE Floats<N> all(float x) {
@@ -112,7 +114,8 @@ HWY_INLINE Mask<N> operator&(const Mask<N>& a, const Mask<N>& b) {
 }
 template <std::size_t N>
 HWY_INLINE Floats<N> select(const Mask<N>& mask, const Floats<N>& yes, const Floats<N>& no) {
-  return each<N>([&](std::size_t i) HWY_ATTR { return hn::IfThenElse(mask.part[i], yes.part[i], no.part[i]); });
+  return each<N>([&](std::size_t i)
+                     HWY_ATTR { return hn::IfThenElse(mask.part[i], yes.part[i], no.part[i]); });
 }
 template <std::size_t N>
 HWY_INLINE Floats<N> where(const Mask<N>& mask, const Floats<N>& a) {  // 0 elsewhere

@@ -1,7 +1,7 @@
 // Least-squares fits in inverse range around a cell, from the cells before it.
 //
-// Along a plane, 1/range is linear in the tangents of the angles, so over a few cells nearly linear in row and
-// column. Cells count when their range is similar to a reference: the surface that is meant.
+// Along a plane, 1/range is linear in the tangents of the angles, so over a few cells nearly linear in row
+// and column. Cells count when their range is similar to a reference: the surface that is meant.
 
 #if defined(POINTREEL_PREDICT_LOCAL_FITS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef POINTREEL_PREDICT_LOCAL_FITS_INL_H_
@@ -52,8 +52,10 @@ HWY_INLINE LocalFits fit_locally(const CausalCanvas& canvas, std::size_t index, 
   {
     // Normal equations of u = a + b x + c y, by Cramer's rule for a; y counts rows downwards.
     const Float8 w0 = where(similar_here, load<8>(kernels.plane_here));
-    const Float8 w1 = where(similar(load<8>(canvas.range_m(above)), reference_m), load<8>(kernels.plane_above));
-    const Float8 w2 = where(similar(load<8>(canvas.range_m(above2)), reference_m), load<8>(kernels.plane_above2));
+    const Float8 w1 =
+        where(similar(load<8>(canvas.range_m(above)), reference_m), load<8>(kernels.plane_above));
+    const Float8 w2 =
+        where(similar(load<8>(canvas.range_m(above2)), reference_m), load<8>(kernels.plane_above2));
     const Float8 x_above = load<8>(kernels.x_above);
     const Float8 w12 = w1 + w2;
     const Float8 wx0 = w0 * x, wx12 = w12 * x_above;
@@ -91,10 +93,12 @@ HWY_INLINE LocalFits fit_locally(const CausalCanvas& canvas, std::size_t index, 
   }
   if (above_m > 0) {
     const std::size_t first_above = first - canvas.stride();
-    const Float8 w = where(similar_here & similar(load<8>(canvas.range_m(first_above)), above_m), load<8>(kernels.line));
+    const Float8 w =
+        where(similar_here & similar(load<8>(canvas.range_m(first_above)), above_m), load<8>(kernels.line));
     const float total = sum(w);
     if (total > 0) {
-      fits.parallel = 1 / above_m + sum(w * (inverse_here - load<8>(canvas.inverse_range(first_above)))) / total;
+      fits.parallel =
+          1 / above_m + sum(w * (inverse_here - load<8>(canvas.inverse_range(first_above)))) / total;
     }
   }
   return fits;

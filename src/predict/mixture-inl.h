@@ -1,6 +1,7 @@
 // The mixture: the experts' proposals as one probability distribution of a cell's range.
 //
-//   P(range < x) = sum_k w_k F((x - c_k) / s_k),   F(z) = (1 + G(z)) / 2,   G(z) = z (1 + |z|) / (1 + |z| + z^2)
+//   P(range < x) = sum_k w_k F((x - c_k) / s_k),   F(z) = (1 + G(z)) / 2,   G(z) = z (1 + |z|) / (1 + |z| +
+//   z^2)
 //
 // F is smooth at 0 and has the tails of Student's t distribution with two degrees of freedom, for a single
 // division (that distribution itself and the logistic function give the same rate, for more work). Weight and
@@ -50,9 +51,8 @@ HWY_INLINE Float16 recent_errors(const ErrorHistory& history, const CausalCanvas
   if (!(total > 0)) return all<16>(otherwise);
   const float* row0 = history.at(0, column);
   const float* row1 = history.at(1, column);
-  const auto at = [](const float* row, std::ptrdiff_t columns) HWY_ATTR {
-    return load<16>(row + columns * static_cast<std::ptrdiff_t>(kExperts));
-  };
+  const auto at = [](const float* row, std::ptrdiff_t columns)
+                      HWY_ATTR { return load<16>(row + columns * static_cast<std::ptrdiff_t>(kExperts)); };
   const Float16 in_row = at(row0, -1) * all<16>(left) + at(row0, -2) * all<16>(left2);
   const Float16 in_column = at(row1, 0) * all<16>(up) + load<16>(history.at(2, column)) * all<16>(up2);
   const Float16 across = at(row1, -1) * all<16>(up_left) + at(row1, 1) * all<16>(up_right);
@@ -122,8 +122,9 @@ class Mixture {
     const Float16 joint = weight_ * p;
     const Float16 responsibility = joint * all<16>(1 / sum(joint));
     MixtureState::PerClass& per_class = state.classes[blend_class_];
-    store(clamped(weight_ * (one + kWeightRate * (responsibility - per_total_weight_ * weight_)), 1e-4F, 1e4F),
-          per_class.weight.data());
+    store(
+        clamped(weight_ * (one + kWeightRate * (responsibility - per_total_weight_ * weight_)), 1e-4F, 1e4F),
+        per_class.weight.data());
     store(clamped(learnt_inverse_scale_ * (one + kScaleRate * responsibility * steepness), 1e-4F, 1e3F),
           per_class.inverse_scale.data());
   }

@@ -7,8 +7,8 @@
 namespace pointreel {
 
 struct AllIngredients {
-  static constexpr std::uint32_t kExpertsOff = 0;   // a bit per expert, which then proposes the first guess
-  static constexpr bool kLearnsWeights = true;      // of the mixture
+  static constexpr std::uint32_t kExpertsOff = 0;  // a bit per expert, which then proposes the first guess
+  static constexpr bool kLearnsWeights = true;     // of the mixture
   static constexpr bool kLearnsScales = true;
   static constexpr bool kSecondStage = true;
 };

@@ -13,8 +13,8 @@
 
 #include <vector>
 
-#include "predict/experts-inl.h"
 #include "predict/band_coding.h"
+#include "predict/experts-inl.h"
 #include "predict/step_coder-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -59,7 +59,8 @@ class RangeModel {
     Mixture::Border lower, upper;
     const std::int32_t wanted = Coder::kDecodes ? 0 : rounded((range_m - origin_m) / step_m);
     const std::int32_t steps =
-        StepCoder<Coder, Ingredients>(coder, state_.steps, mixture, context, origin_m, step_m).code(wanted, lower, upper);
+        StepCoder<Coder, Ingredients>(coder, state_.steps, mixture, context, origin_m, step_m)
+            .code(wanted, lower, upper);
     mixture.learn<Ingredients>(lower, upper, state_.mixture);
 
     const float decoded_m = at_least_smallest(origin_m + static_cast<float>(steps) * step_m);
@@ -69,9 +70,6 @@ class RangeModel {
     steps_[index] = clipped_steps(steps);
     return decoded_m;
   }
-
-
-
 
  private:
   static float at_least_smallest(float range_m) {

@@ -5,8 +5,8 @@
 
 namespace pointreel {
 
-// Without a lattice the bins of a cell are centred on its prediction, which costs least; with one they are the
-// multiples of step_m plus the row's phase, which hits the sensor's own values exactly.
+// Without a lattice the bins of a cell are centred on its prediction, which costs least; with one they are
+// the multiples of step_m plus the row's phase, which hits the sensor's own values exactly.
 struct RangeQuantiser {
   float step_m = 0.04F;
   std::vector<float> lattice_phase_m;  // per row of the image; empty: no lattice

@@ -28,7 +28,8 @@ template <std::size_t kInputs, std::size_t kSets>
 void set_weights(std::array<BitMixer<kInputs>, kSets>& mixers, std::span<const std::int16_t> weights) {
   for (std::size_t set = 0; set < kSets; ++set) {
     for (std::size_t input = 0; input < kInputs; ++input) {
-      mixers[set].set_weight(static_cast<int>(input), weights[set * kInputs + input] * (BitMixer<kInputs>::kOne / 256));
+      mixers[set].set_weight(static_cast<int>(input),
+                             weights[set * kInputs + input] * (BitMixer<kInputs>::kOne / 256));
     }
   }
 }

@@ -36,7 +36,7 @@ struct MixtureState {
 // The second stage: adaptive models of the first questions about a bin, and the mixers over them.
 struct StepModels {
   static constexpr std::size_t kUnarySteps = 6;
-  static constexpr std::size_t kRows = 64;  // rows below share the last row's models
+  static constexpr std::size_t kRows = 64;    // rows below share the last row's models
   static constexpr std::size_t kErrors = 16;  // classes of errors
   static constexpr std::size_t kActivities = 16;
   static constexpr std::size_t kSigns = 125;

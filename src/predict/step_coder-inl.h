@@ -20,7 +20,9 @@ HWY_BEFORE_NAMESPACE();
 namespace pointreel {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE float positive(float x) { return x > 1e-9F ? x : 1e-9F; }
+HWY_INLINE float positive(float x) {
+  return x > 1e-9F ? x : 1e-9F;
+}
 
 HWY_INLINE Probability16 to_probability(float p) {
   constexpr float kLeast = kMinProbability, kMost = 65536 - kMinProbability;
@@ -81,7 +83,8 @@ class StepCoder {
   }
 
   template <bool kDown>
-  std::int32_t code_magnitude(std::int32_t wanted, float tail, Mixture::Border& inner, Mixture::Border& outer) {
+  std::int32_t code_magnitude(std::int32_t wanted, float tail, Mixture::Border& inner,
+                              Mixture::Border& outer) {
     std::int32_t magnitude = 1;
     for (; magnitude <= kUnarySteps; ++magnitude) {
       const float beyond = tail_beyond<kDown>(magnitude, outer);
@@ -120,20 +123,20 @@ class StepCoder {
 
   HWY_INLINE bool code_zero(float p, bool zero) {
     return code_mixed<Ingredients>(coder_, p,
-                      {&models_.zero_by_activity[at_.activity * StepModels::kErrors + at_.error],
-                       &models_.zero_by_row[at_.row * 4 + at_.availability]},
-                      models_.zero_mixers[at_.activity * 4 + at_.availability], zero);
+                                   {&models_.zero_by_activity[at_.activity * StepModels::kErrors + at_.error],
+                                    &models_.zero_by_row[at_.row * 4 + at_.availability]},
+                                   models_.zero_mixers[at_.activity * 4 + at_.availability], zero);
   }
   HWY_INLINE bool code_sign(float p, bool down) {
     return code_mixed<Ingredients>(
-        coder_, p,
-        {&models_.sign_by_signs[at_.signs], &models_.sign_by_row[at_.row * 4 + at_.availability]},
+        coder_, p, {&models_.sign_by_signs[at_.signs], &models_.sign_by_row[at_.row * 4 + at_.availability]},
         models_.sign_mixers[at_.availability], down);
   }
   HWY_INLINE bool code_more(std::int32_t magnitude, float p, bool more) {
     const auto step = static_cast<std::size_t>(magnitude - 1);
-    return code_mixed<Ingredients>(coder_, p, {&models_.more_by_error[at_.error * StepModels::kUnarySteps + step]},
-                      models_.more_mixers[step * 4 + at_.activity / 4], more);
+    return code_mixed<Ingredients>(coder_, p,
+                                   {&models_.more_by_error[at_.error * StepModels::kUnarySteps + step]},
+                                   models_.more_mixers[step * 4 + at_.activity / 4], more);
   }
 
   Coder& coder_;

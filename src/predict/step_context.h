@@ -25,7 +25,8 @@ inline constexpr auto kActivities = [] {
       const int steps = static_cast<int>(i / place % 5) - 2;
       return steps < 0 ? -steps : steps;
     };
-    table[i] = static_cast<std::uint8_t>(std::min(15, 2 * (size(625) + size(125)) + size(25) + size(5) + size(1)));
+    table[i] =
+        static_cast<std::uint8_t>(std::min(15, 2 * (size(625) + size(125)) + size(25) + size(5) + size(1)));
   }
   return table;
 }();
@@ -39,8 +40,8 @@ struct StepContext {
   std::size_t error;  // 0 to 15: the blend's recent error
 
   // `here` and `above`: clipped steps at the cell and at the one above it.
-  StepContext(const std::uint8_t* here, const std::uint8_t* above, bool has_left, bool has_above, int row_in_band,
-              std::size_t blend_class)
+  StepContext(const std::uint8_t* here, const std::uint8_t* above, bool has_left, bool has_above,
+              int row_in_band, std::size_t blend_class)
       : signs((std::size_t{here[-1]} * 5 + above[0]) * 5 + above[1]),
         activity(kActivities[(signs * 5 + here[-2]) * 5 + above[-1]]),
         availability((has_left ? 1U : 0U) + (has_above ? 2U : 0U)),

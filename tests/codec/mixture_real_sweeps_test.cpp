@@ -36,7 +36,8 @@ TEST_P(MixtureRealSweeps, KeepEveryPromise) {
       ASSERT_TRUE(decoded[0]) << decoded[0].error().message;
       EXPECT_EQ(decoded[0]->order_kept, GetParam().order_kept);
       check_mixture_sweep(header_of(options), *cloud, packets->front(), *decoded[0]);
-      bits += 8.0 * static_cast<double>(serialize(packets->front()).size()) - packets->front().statistics.field_bits;
+      bits += 8.0 * static_cast<double>(serialize(packets->front()).size()) -
+              packets->front().statistics.field_bits;
       points += static_cast<double>(cloud->size());
     }
     if (bound_m == 0.02) {
@@ -46,8 +47,10 @@ TEST_P(MixtureRealSweeps, KeepEveryPromise) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sets, MixtureRealSweeps,
-                         testing::Values(RealSet{"kitti_raw_0005", true, 2.32}, RealSet{"kitti_raw_0001", true, 2.42},
-                                         RealSet{"kitti_odometry_00", true, 2.42}, RealSet{"ring_time_pcd", false, 3}),
+                         testing::Values(RealSet{"kitti_raw_0005", true, 2.32},
+                                         RealSet{"kitti_raw_0001", true, 2.42},
+                                         RealSet{"kitti_odometry_00", true, 2.42},
+                                         RealSet{"ring_time_pcd", false, 3}),
                          [](const auto& set) { return std::string(set.param.folder); });
 
 }  // namespace

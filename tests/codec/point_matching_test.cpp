@@ -14,7 +14,8 @@ TEST(PointMatching, FindsAPermutation) {
   std::uniform_real_distribution<float> place(-5, 5), shift(-0.01F, 0.01F);
   std::vector<Point3f> originals(2000), decoded;
   for (Point3f& p : originals) p = {place(random), place(random), place(random)};
-  for (const Point3f& p : originals) decoded.push_back({p.x + shift(random), p.y + shift(random), p.z + shift(random)});
+  for (const Point3f& p : originals)
+    decoded.push_back({p.x + shift(random), p.y + shift(random), p.z + shift(random)});
   std::shuffle(decoded.begin(), decoded.end(), random);
   const auto pairs = match_points(originals, decoded, 0.02);
   EXPECT_EQ(std::set<std::int64_t>(pairs.begin(), pairs.end()).size(), originals.size());
