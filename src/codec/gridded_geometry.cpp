@@ -206,6 +206,7 @@ Result<DecodedGeometry> decode_gridded(const SensorModel& model, std::size_t poi
   const auto quantiser = get_quantiser(reader, model);
   if (!quantiser) return quantiser.error();
 
+  if (grid->column_count() == 0) return Error{ErrorCode::corrupt, "its grid has no columns"};
   const CodingGrid coding(model, *grid);
   GridImage image = coding.empty_image();
   const auto bands = bands_of(image.rows, image.columns);

@@ -187,7 +187,7 @@ bool code_ticks(Coder& coder, std::uint32_t turn, std::vector<std::uint32_t>& ti
 template <class Coder>
 bool code_grid(Coder& coder, const SensorModel& model, SweepGrid& grid) {
   const std::size_t columns = code_bits(coder, static_cast<std::uint32_t>(grid.column_count()), 17);
-  if (columns == 0 || columns > kMaxColumns || columns * model.rows.size() > kMaxCells) return false;
+  if (columns > kMaxColumns || columns * model.rows.size() > kMaxCells) return false;
   grid.ticks_per_turn =
       model.ticks_per_turn != 0 ? model.ticks_per_turn : code_bits(coder, grid.ticks_per_turn, 23);
   if (grid.ticks_per_turn == 0 || grid.ticks_per_turn > kMaxTicksPerTurn) return false;
