@@ -1,6 +1,8 @@
 // All real sweeps from $POINTREEL_DATA, which are not part of the repository, through method `mixture`.
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include "pointreel/io.h"
 #include "support/clouds.h"
 #include "support/mixture_round_trip.h"
@@ -13,6 +15,10 @@ struct RealSet {
   bool order_kept;
   double most_bits_per_point;  // geometry, at 2 cm
 };
+
+void PrintTo(const RealSet& set, std::ostream* out) {
+  *out << set.folder;
+}
 
 class MixtureRealSweeps : public testing::TestWithParam<RealSet> {};
 

@@ -1,4 +1,5 @@
 // Thousands of variations of a good reel: damaged in transit, or by someone who knows about checksums.
+#include <ostream>
 #include <random>
 
 #include "survival.h"
@@ -10,6 +11,10 @@ struct Sample {
   const char* name;
   EncoderOptions options;
 };
+
+void PrintTo(const Sample& sample, std::ostream* out) {
+  *out << sample.name;
+}
 
 class DamagedReels : public testing::TestWithParam<Sample> {
  protected:
