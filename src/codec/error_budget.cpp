@@ -52,11 +52,17 @@ RangeQuantiser choose_quantiser(const SensorModel& model, const GriddedSweep& sw
   // On the sensor's own lattice the range is nearly exact, at a coarser step than the bound would ask for.
   if (model.range_step_m > best_step_m && model.range_step_m <= 3 * max_error_m) {
     quantiser.step_m = static_cast<float>(model.range_step_m);
-    for (const double phase : model.range_phase) {
-      quantiser.lattice_phase_m.push_back(static_cast<float>(phase * model.range_step_m));
-    }
+    quantiser.lattice_phase_m = lattice_phases_m(model);
   }
   return quantiser;
+}
+
+std::vector<float> lattice_phases_m(const SensorModel& model) {
+  std::vector<float> phases_m;
+  for (const double phase : model.range_phase) {
+    phases_m.push_back(static_cast<float>(phase * model.range_step_m));
+  }
+  return phases_m;
 }
 
 }  // namespace pointreel

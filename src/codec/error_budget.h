@@ -1,7 +1,7 @@
 // The error budget of a sweep: how coarse its ranges may be, given how far the points lie from their rays.
 #pragma once
 
-#include <span>
+#include <vector>
 
 #include "predict/range_quantiser.h"
 #include "sensor/sensor_model.h"
@@ -12,5 +12,8 @@ namespace pointreel {
 // The quantiser with the fewest bits by estimate: coarser ranges save bits in every point, but those that
 // then miss the bound need a correction each.
 RangeQuantiser choose_quantiser(const SensorModel& model, const GriddedSweep& sweep, double max_error_m);
+
+// Per row, where the sensor's lattice of ranges has a point; empty for a model without one.
+std::vector<float> lattice_phases_m(const SensorModel& model);
 
 }  // namespace pointreel

@@ -62,7 +62,7 @@ void encode_fields(const FieldSelection& selection, const PointCloud& cloud,
     put_section(writer, {reinterpret_cast<const std::uint8_t*>(name.data()), name.size()});
     writer.put(static_cast<std::uint8_t>(part.field->values.index()));
     put_section(writer, part.bytes);
-    statistics.field_bits += 8.0 * static_cast<double>(part.bytes.size() + name.size() + 3);
+    statistics.field_bits += bits_of(part.bytes.size() + name.size() + 3);
   }
 }
 

@@ -18,10 +18,6 @@
 namespace pointreel {
 namespace {
 
-double bits_of(std::size_t bytes) {
-  return 8.0 * static_cast<double>(bytes);
-}
-
 // Points that float32 ranges and positions cannot hold within the bound leave the grid.
 void drop_unreachable(const PointCloud& cloud, double max_error_m, GriddedSweep& sweep) {
   const auto reach_m = static_cast<float>(std::min(CorrectionSteps(max_error_m).reach_m(),
@@ -103,11 +99,7 @@ Result<RangeQuantiser> get_quantiser(ByteReader& reader, const SensorModel& mode
       (on_lattice == 1 && model.range_phase.size() != model.row_count())) {
     return Error{ErrorCode::corrupt, "its step of range is not valid"};
   }
-  if (on_lattice == 1) {
-    for (const double phase : model.range_phase) {
-      quantiser.lattice_phase_m.push_back(static_cast<float>(phase * model.range_step_m));
-    }
-  }
+  if (on_lattice == 1) quantiser.lattice_phase_m = lattice_phases_m(model);
   return quantiser;
 }
 

@@ -67,8 +67,7 @@ class MixtureEncoder final : public Encoder::Implementation {
     ByteWriter writer;
     EncodedGeometry encoded;
     if (auto gridded = on_grid(cloud)) {
-      const bool brings_model = !model_frame_ || model_age_ >= header_.group;
-      if (brings_model)
+      if (starts_group())
         put_model(writer, packet.statistics);
       else
         writer.put(SweepCoding::gridded);
@@ -97,11 +96,14 @@ class MixtureEncoder final : public Encoder::Implementation {
   static constexpr double kLeastDeviationM = 0.05;  // of points on the grid from their rays
   static constexpr double kMostStrays = 0.3;        // of the points; with more, the octree is cheaper
 
+  // The next gridded sweep brings the model.
+  bool starts_group() const { return !model_frame_ || model_age_ >= header_.group; }
+
   // None when the sweep is not that of a sensor whose grid is known. Within a group the model stays as it was
   // sent, while the estimate gets better.
   std::optional<GriddedSweep> on_grid(const PointCloud& cloud) {
     if (cloud.positions.empty()) return std::nullopt;
-    if (!model_frame_ || model_age_ >= header_.group) {
+    if (starts_group()) {
       if (!estimator_.model()) estimator_.add(cloud);
       if (!estimator_.model()) return std::nullopt;
       model_ = useful_part(*estimator_.model());
@@ -127,7 +129,7 @@ class MixtureEncoder final : public Encoder::Implementation {
     const auto bytes = encode_sensor_model(*model_);
     writer.put(SweepCoding::gridded_model);
     put_section(writer, bytes);
-    statistics.model_bits += 8.0 * static_cast<double>(bytes.size());
+    statistics.model_bits += bits_of(bytes.size());
     model_frame_ = next_frame_;
     model_age_ = 0;
   }
@@ -137,7 +139,7 @@ class MixtureEncoder final : public Encoder::Implementation {
     writer.put(SweepCoding::scattered);
     auto points = encode_scattered(cloud.positions, header_.max_error_m);
     put_section(writer, points.bytes);
-    statistics.scattered_bits += 8.0 * static_cast<double>(points.bytes.size());
+    statistics.scattered_bits += bits_of(points.bytes.size());
     EncodedGeometry encoded;
     encoded.output_order = std::move(points.order);
     encoded.geometry.cell_of_point.assign(cloud.size(), -1);

@@ -1,6 +1,7 @@
 // Sections of a payload: runs of bytes behind their length, and small numbers.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -33,6 +34,11 @@ inline void put_section(ByteWriter& writer, std::span<const std::uint8_t> bytes)
 }
 inline std::span<const std::uint8_t> get_section(ByteReader& reader) {
   return reader.get(static_cast<std::size_t>(get_varint(reader)));
+}
+
+// For statistics by part.
+inline double bits_of(std::size_t bytes) {
+  return 8.0 * static_cast<double>(bytes);
 }
 
 }  // namespace pointreel

@@ -7,6 +7,7 @@
 
 #include "base/trigonometry.h"
 #include "entropy/adaptive_models.h"
+#include "entropy/plain_bits.h"
 
 namespace pointreel {
 namespace {
@@ -15,9 +16,7 @@ constexpr double kTurn = 2 * kPi;
 
 template <class Coder>
 std::uint32_t code_bits(Coder& coder, std::uint32_t value, int bits) {
-  std::uint32_t coded = 0;
-  for (int bit = bits; bit-- > 0;) coded = (coded << 1) | (coder.code_even((value >> bit) & 1u) ? 1u : 0u);
-  return coded;
+  return static_cast<std::uint32_t>(code_plain_bits(coder, value, bits));
 }
 
 // Signed integers whose size varies slowly: number of bits by adaptive binary decisions, then the bits.
