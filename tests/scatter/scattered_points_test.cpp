@@ -6,16 +6,12 @@
 #include <algorithm>
 #include <cstring>
 
+#include "any_points.h"
 #include "support/clouds.h"
+#include "support/distance.h"
 
 namespace pointreel {
 namespace {
-
-double distance_m(const Point3f& a, const Point3f& b) {
-  const double x = static_cast<double>(a.x) - b.x, y = static_cast<double>(a.y) - b.y,
-               z = static_cast<double>(a.z) - b.z;
-  return std::sqrt(x * x + y * y + z * z);
-}
 
 // Every point against its own original, no point twice. Returns the bytes.
 std::size_t check(const std::vector<Point3f>& points, double max_error_m) {
@@ -31,7 +27,7 @@ std::size_t check(const std::vector<Point3f>& points, double max_error_m) {
     EXPECT_FALSE(seen[coded.order[i]]);
     seen[coded.order[i]] = true;
     if (is_finite(original)) {
-      EXPECT_LE(distance_m((*decoded)[i], original), max_error_m);
+      EXPECT_LE(distance_between_m((*decoded)[i], original), max_error_m);
     } else {
       EXPECT_EQ(std::memcmp(&(*decoded)[i], &original, sizeof(Point3f)), 0);
     }
@@ -52,18 +48,7 @@ TEST(ScatteredPoints, KeepTheBoundOnAwkwardClouds) {
 }
 
 RC_GTEST_PROP(ScatteredPoints, KeepTheBoundOnAnyPoints, ()) {
-  const auto coordinate = rc::gen::map(rc::gen::arbitrary<std::uint32_t>(), [](std::uint32_t bits) {
-    // Any float at all, or a coordinate of a place nearby.
-    if (bits % 8 == 0) {
-      float any;
-      std::memcpy(&any, &bits, sizeof(any));
-      return any;
-    }
-    return static_cast<float>(static_cast<std::int32_t>(bits) >> (bits % 31)) / 1024;
-  });
-  const auto points = *rc::gen::container<std::vector<Point3f>>(
-      rc::gen::build<Point3f>(rc::gen::set(&Point3f::x, coordinate), rc::gen::set(&Point3f::y, coordinate),
-                              rc::gen::set(&Point3f::z, coordinate)));
+  const auto points = *any_points();
   const double max_error_m = *rc::gen::element(0.0005, 0.01, 0.3, 1.0);
   auto twice = points;
   twice.insert(twice.end(), points.begin(), points.end());

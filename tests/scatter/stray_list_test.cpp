@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <random>
+
+#include "any_points.h"
+#include "support/distance.h"
 
 namespace pointreel {
 namespace {
@@ -22,9 +24,7 @@ std::size_t check(const std::vector<Stray>& strays, double max_error_m) {
     const Point3f &a = strays[i].position, &b = (*decoded)[i].position;
     EXPECT_EQ((*decoded)[i].index, strays[i].index);
     if (is_finite(a)) {
-      const double x = static_cast<double>(a.x) - b.x, y = static_cast<double>(a.y) - b.y,
-                   z = static_cast<double>(a.z) - b.z;
-      EXPECT_LE(std::sqrt(x * x + y * y + z * z), max_error_m);
+      EXPECT_LE(distance_between_m(a, b), max_error_m);
     } else {
       EXPECT_EQ(std::memcmp(&a, &b, sizeof(a)), 0);
     }
@@ -60,17 +60,7 @@ TEST(StrayList, MissingReturnsAmongOtherStraysCostFewBits) {
 }
 
 RC_GTEST_PROP(StrayList, KeepsTheBoundOnAnyPoints, ()) {
-  const auto coordinate = rc::gen::map(rc::gen::arbitrary<std::uint32_t>(), [](std::uint32_t bits) {
-    if (bits % 8 == 0) {
-      float any;
-      std::memcpy(&any, &bits, sizeof(any));
-      return any;
-    }
-    return static_cast<float>(static_cast<std::int32_t>(bits) >> (bits % 31)) / 1024;
-  });
-  const auto positions = *rc::gen::container<std::vector<Point3f>>(
-      rc::gen::build<Point3f>(rc::gen::set(&Point3f::x, coordinate), rc::gen::set(&Point3f::y, coordinate),
-                              rc::gen::set(&Point3f::z, coordinate)));
+  const auto positions = *any_points();
   std::vector<Stray> strays;
   std::uint32_t index = 0;
   for (const Point3f& position : positions) {

@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "support/codec_round_trip.h"
+#include "support/distance.h"
 
 namespace pointreel {
 
@@ -16,11 +16,6 @@ inline EncoderOptions mixture_options(double max_error_m, int group = 10) {
   options.mixture.max_error_m = max_error_m;
   options.mixture.group = group;
   return options;
-}
-
-inline double distance_between_m(const Point3f& a, const Point3f& b) {
-  return std::hypot(static_cast<double>(a.x) - b.x, static_cast<double>(a.y) - b.y,
-                    static_cast<double>(a.z) - b.z);
 }
 
 // Every finite point is there, once, within the bound; fields came to the bit where the order says which is
