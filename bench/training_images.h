@@ -1,19 +1,36 @@
-// Sweeps from files as the images that method `mixture` codes, for training its priors.
+// Sweeps from files as the images that method `mixture` codes, for training its priors and for the ablation.
 #pragma once
 
-#include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
+#include "pointreel/motion.h"
 #include "predict/grid_image.h"
+#include "predict/reference_image.h"
+#include "sensor/sensor_model.h"
+#include "sensor/sweep_grid.h"
 
 namespace pointreel {
 
-struct TrainingImage {
+struct TrainingSweep {
   GridImage image;
-  bool follows_previous = false;  // the same folder and sensor as the image before it
+  SweepGrid grid;
+  // From the sweep before in the same folder, by registration; none for the first, or where that fails.
+  std::optional<Pose> T_previous_this;
 };
 
-// One image per sweep; exits with a message where a file cannot be read or shows no sensor grid.
-std::vector<TrainingImage> training_images(const std::vector<std::string>& sweeps);
+// Consecutive sweeps of one folder.
+struct TrainingDrive {
+  SensorModel model;
+  std::vector<TrainingSweep> sweeps;
+};
+
+// Exits with a message where a file cannot be read or shows no sensor grid.
+std::vector<TrainingDrive> training_drives(const std::vector<std::string>& sweeps);
+
+// The sweep before, decoded to `previous_range_m`, as a reference of sweep `i`, which has a pose.
+ReferenceImage reference_of(const TrainingDrive& drive, std::size_t i,
+                            const std::vector<float>& previous_range_m);
 
 }  // namespace pointreel

@@ -27,6 +27,9 @@ enum class Method : std::uint8_t {
   mixture = 2,  // every point within a bound: sensor-grid ranges coded by a mixture of predictors
 };
 
+// How much work `mixture` puts into a sweep: more work, fewer bits (docs/EFFORT.md). The decoder does the same.
+enum class Effort : std::uint8_t { fast = 0, balanced = 1, max = 2 };
+
 // How the ranges of cells that lie on no plane are kept (the paper's residual map).
 enum class ResidualMode : std::uint8_t {
   stepped,   // quantised, predicted, entropy coded

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/parallel.h"
-#include "codec/coding_grid.h"
+#include "predict/coding_grid.h"
 #include "codec/corrections.h"
 #include "codec/error_budget.h"
 #include "codec/sections.h"

@@ -10,48 +10,34 @@
 #include "hwy/foreach_target.h"
 //
 #include "entropy/adaptive_models.h"
-#include "predict/hit_mask.h"
-#include "predict/range_model-inl.h"
+#include "predict/band_coder-inl.h"
+#include "predict/range_config.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pointreel {
 namespace HWY_NAMESPACE {
 
-// False when a decoder runs out of bytes. Both streams advance cell by cell, each predicted from the other.
 template <class Coder>
-bool code_band(Coder& mask_coder, Coder& range_coder, const RangeQuantiser& quantiser, const Band& band,
-               GridImage& image, BandState& state) {
-  HitMaskModel mask({band.first_row, band.rows, image.columns, image.rows}, {}, std::move(state.mask));
-  RangeModel<> ranges(band, image.columns, quantiser, state.ranges);
-  for (int row = 0; row < band.rows; ++row) {
-    const int image_row = band.first_row + row;
-    mask.begin_row();
-    ranges.start_row(
-        row, quantiser.on_lattice() ? quantiser.lattice_phase_m[static_cast<std::size_t>(image_row)] : 0);
-    float* range_m = &image.range_m[image.index(image_row, 0)];
-    for (int column = 0; column < image.columns; ++column) {
-      if (!mask.code(mask_coder, range_m[column] > 0)) continue;
-      range_m[column] = ranges.code(range_coder, column, range_m[column]);
-      mask.set_range(range_m[column]);
-    }
-    if constexpr (Coder::kDecodes) {
-      if (mask_coder.overran() || range_coder.overran()) return false;
-    }
-  }
-  state.mask = mask.state();
-  return true;
+bool code(Coder& mask, Coder& ranges, const BandSetting& setting, const Band& band, GridImage& image,
+          BandState& state) {
+  using Ingredients = AllIngredients;
+  if (!setting.kind.predicted)
+    return code_band<RangeModel<Ingredients, 16, false>, false>(mask, ranges, setting, band, image, state);
+  if (setting.kind.effort == Effort::max)
+    return code_band<RangeModel<Ingredients, 24, true>, true>(mask, ranges, setting, band, image, state);
+  return code_band<RangeModel<Ingredients, 16, true>, true>(mask, ranges, setting, band, image, state);
 }
 
-CodedBand encode(const RangeQuantiser& quantiser, const Band& band, GridImage& image, BandState& state) {
-  BitEncoder mask_coder, range_coder;
-  code_band(mask_coder, range_coder, quantiser, band, image, state);
-  return {mask_coder.finish(), range_coder.finish()};
+CodedBand encode(const BandSetting& setting, const Band& band, GridImage& image, BandState& state) {
+  BitEncoder mask, ranges;
+  code(mask, ranges, setting, band, image, state);
+  return {mask.finish(), ranges.finish()};
 }
 
-bool decode(const RangeQuantiser& quantiser, const Band& band, std::span<const std::uint8_t> mask,
-            std::span<const std::uint8_t> ranges, GridImage& image, BandState& state) {
-  BitDecoder mask_coder(mask), range_coder(ranges);
-  return code_band(mask_coder, range_coder, quantiser, band, image, state);
+bool decode(const BandSetting& setting, const Band& band, std::span<const std::uint8_t> mask_bytes,
+            std::span<const std::uint8_t> range_bytes, GridImage& image, BandState& state) {
+  BitDecoder mask(mask_bytes), ranges(range_bytes);
+  return code(mask, ranges, setting, band, image, state);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -77,18 +63,13 @@ std::vector<Band> bands_of(int rows, int columns) {
   return bands;
 }
 
-BandState BandState::from_priors(const RangeQuantiser& quantiser, const Band& band) {
-  return {HitMaskState::from_priors(band.rows), RangeModelState::from_priors(quantiser.step_m)};
+CodedBand encode_band(const BandSetting& setting, const Band& band, GridImage& image, BandState& state) {
+  return HWY_DYNAMIC_DISPATCH(encode)(setting, band, image, state);
 }
 
-CodedBand encode_band(const RangeQuantiser& quantiser, const Band& band, GridImage& image, BandState& state) {
-  return HWY_DYNAMIC_DISPATCH(encode)(quantiser, band, image, state);
-}
-
-Result<void> decode_band(const RangeQuantiser& quantiser, const Band& band,
-                         std::span<const std::uint8_t> mask, std::span<const std::uint8_t> ranges,
-                         GridImage& image, BandState& state) {
-  if (!HWY_DYNAMIC_DISPATCH(decode)(quantiser, band, mask, ranges, image, state)) {
+Result<void> decode_band(const BandSetting& setting, const Band& band, std::span<const std::uint8_t> mask,
+                         std::span<const std::uint8_t> ranges, GridImage& image, BandState& state) {
+  if (!HWY_DYNAMIC_DISPATCH(decode)(setting, band, mask, ranges, image, state)) {
     return Error{ErrorCode::truncated, "the ranges end before the last of rows " +
                                            std::to_string(band.first_row) + " to " +
                                            std::to_string(band.first_row + band.rows - 1)};

@@ -7,10 +7,12 @@
 #include <vector>
 
 #include "pointreel/result.h"
+#include "predict/coding_kind.h"
 #include "predict/grid_image.h"
-#include "predict/hit_mask.h"
+#include "predict/hit_mask_state.h"
 #include "predict/range_quantiser.h"
 #include "predict/range_state.h"
+#include "predict/reference_image.h"
 
 namespace pointreel {
 
@@ -26,8 +28,6 @@ std::vector<Band> bands_of(int rows, int columns);
 struct BandState {
   HitMaskState mask;
   RangeModelState ranges;
-
-  static BandState from_priors(const RangeQuantiser& quantiser, const Band& band);
 };
 
 struct CodedBand {
@@ -35,14 +35,20 @@ struct CodedBand {
   std::vector<std::uint8_t> ranges;  // of those that do
 };
 
+// What both sides know before the first cell.
+struct BandSetting {
+  CodingKind kind;
+  const RangeQuantiser& quantiser;
+  const ReferenceImage* reference;  // of the image's size; for predicted frames only
+};
+
 // Ranges in the band must be 0 or positive and within kMostRangeSteps steps; they are replaced by what the
 // decoder will see, within half a step of the original but for float rounding.
-CodedBand encode_band(const RangeQuantiser& quantiser, const Band& band, GridImage& image, BandState& state);
+CodedBand encode_band(const BandSetting& setting, const Band& band, GridImage& image, BandState& state);
 
 // Fills the band's rows of `image`. Error: truncated, when there are fewer bytes than the cells need.
-Result<void> decode_band(const RangeQuantiser& quantiser, const Band& band,
-                         std::span<const std::uint8_t> mask, std::span<const std::uint8_t> ranges,
-                         GridImage& image, BandState& state);
+Result<void> decode_band(const BandSetting& setting, const Band& band, std::span<const std::uint8_t> mask,
+                         std::span<const std::uint8_t> ranges, GridImage& image, BandState& state);
 
 inline constexpr float kMostRangeSteps = 1 << 24;
 

@@ -1,4 +1,4 @@
-// The experts: what the range of a cell could be, each from its own idea of the surface.
+// The experts: what the ranges of eight cells could be, each from its own idea of the surface.
 
 #if defined(POINTREEL_PREDICT_EXPERTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef POINTREEL_PREDICT_EXPERTS_INL_H_
@@ -7,79 +7,206 @@
 #define POINTREEL_PREDICT_EXPERTS_INL_H_
 #endif
 
-#include "predict/causal_canvas.h"
+#include <cstdint>
+
 #include "predict/local_fits-inl.h"
-#include "predict/range_config.h"
 #include "predict/range_state.h"
-#include "predict/row_memory.h"
+#include "predict/reference-inl.h"
+#include "predict/row_memory-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pointreel {
 namespace HWY_NAMESPACE {
 
-// Extrapolations beyond these shares of the range left of the cell are noise.
-inline constexpr float kNearest = 0.6F, kFarthest = 1.5F, kAny = 1e30F;
-alignas(64) inline constexpr float kNearestShares[kExperts] = {0,        kNearest, kNearest,
-                                                               kNearest, kNearest, kNearest};
-alignas(64) inline constexpr float kFarthestShares[kExperts] = {
-    kAny, kFarthest, kFarthest, kFarthest, kFarthest, kFarthest, kAny, kAny,
-    kAny, kAny,      kAny,      kAny,      kAny,      kAny,      kAny, kAny};
+// The order of the lanes is part of the format. Lane 0 is left for the blend (blend-inl.h).
+enum KeyExpert : std::uint8_t {
+  kKeyLine2 = 1,     // the last two returns of the row go on, in inverse range
+  kKeyPlane = 2,     // local fits
+  kKeyLine = 3,
+  kKeyParallel = 4,
+  kKeyStep = 5,      // the step from above to above right, from the cell left
+  kKeyLeft = 6,      // ranges seen nearby: the surfaces that may go on here
+  kKeyAbove = 7,
+  kKeyAboveLeft = 8,
+  kKeyAboveRight = 9,
+  kKeyAboveRight2 = 10,
+  kKeyLeft2 = 11,
+  kKeyLeft3 = 12,
+  kKeyMeanLeft = 13,
+  kKeyEdge = 14,     // behind the last depth edges of the row
+  kKeyEarlierEdge = 15,
+};
+enum PredictedExpert : std::uint8_t {
+  kPredictedPlane = 1,
+  kPredictedLine = 2,
+  kPredictedParallel = 3,
+  kPredictedLeft = 4,
+  kPredictedAbove = 5,
+  kPredictedAboveRight = 6,
+  kPredictedEdge = 7,
+  kReferenceHere = 8,       // the warped reference's range
+  kReferenceShifted = 9,    // plus its mean difference to what is coded around
+  kReferenceLeftStep = 10,  // its step from the cell left
+  kReferenceAboveStep = 11, // its step from the cell above
+  kReferenceRight = 12,     // its neighbours: what moved
+  kReferenceLeft = 13,
+  kReferenceBelow = 14,
+  kReferenceMean = 15,      // mean of three cells, plus the mean difference
+  kPredictedLine2 = 16,
+  kPredictedStep = 17,
+  kPredictedAboveLeft = 18,
+  kPredictedAboveRight2 = 19,
+  kPredictedLeft2 = 20,
+  kPredictedLeft3 = 21,
+  kPredictedMeanLeft = 22,
+  kPredictedEarlierEdge = 23,
+};
 
-HWY_INLINE float inverted(float inverse_range) {
-  return inverse_range > 1e-6F ? 1 / inverse_range : 0;
+// Eight cells' proposals, a range per expert.
+template <std::size_t kExperts>
+struct Proposals {
+  Float8 range_m[kExperts];
+
+  HWY_INLINE Proposals() {}
+};
+
+HWY_INLINE Mask<8> seen(const Float8& range_m) {
+  return all<8>(kSmallestRangeM) <= range_m;
+}
+HWY_INLINE Float8 inverted(const Float8& inverse_range) {
+  const Float8 least = all<8>(1e-6F);
+  return where(least <= inverse_range, all<8>(1) / larger(inverse_range, least));
 }
 
-// One range per expert in metres, all positive. Lane 0 is left for the blend (mixture-inl.h).
-template <class Ingredients>
-HWY_INLINE Float16 propose_ranges(const CausalCanvas& canvas, std::size_t index, int column,
-                                  const RowMemory& memory) {
-  constexpr float kFirstGuessM = 10;  // where a band has no return yet
+// What several experts start from.
+struct Surroundings {
+  Float8 left, left2, above, above_left, above_right, above_right2;
+  Float8 start;  // where nothing better is known; positive
 
-  const float* here = canvas.range_m(index);
-  const float* above = here - canvas.stride();
-  const float left = memory.last_m(column);
-  const float left2 = memory.before_last_m(column);
-  const float up = above[0];
-  float start = left;
-  if (!(start > 0)) start = up;
-  if (!(start > 0)) start = above[-1];
-  if (!(start > 0)) start = above[1];
-  if (!(start > 0)) start = kFirstGuessM;
-  // Proposals that there is no evidence for are 0 at first, then `start`.
-  alignas(64) float seen_m[kExperts];
-  seen_m[0] = start;
-  seen_m[1] = left2 > 0 ? inverted(2 / left - 1 / left2) : 0;
-  seen_m[5] = left > 0 && up > 0 && above[1] > 0 ? left + (above[1] - up) : 0;
-  // Ranges seen nearby: the surfaces that may go on here.
-  seen_m[6] = start;
-  seen_m[7] = up;
-  seen_m[8] = above[-1];
-  seen_m[9] = above[1];
-  seen_m[10] = above[2] > 0 ? above[2] : above[1];
-  seen_m[11] = left2;
-  seen_m[12] = here[-3];
-  seen_m[13] = left2 > 0 ? 0.5F * (left + left2) : 0;
-  seen_m[14] = memory.edge_m();
-  seen_m[15] = memory.earlier_edge_m();
-  // Linear in inverse range, as planes are.
-  const LocalFits fits = fit_locally(canvas, index, start, up);
-  seen_m[2] = seen_m[3] = seen_m[4] = 0;
-  const Float16 raw_m =
-      with_lane<2>(with_lane<3>(with_lane<4>(load<16>(seen_m), inverted(fits.parallel)), inverted(fits.line)),
-                   inverted(fits.plane));
-  const Mask<16> usable = (start * load<16>(kNearestShares) <= raw_m) &
-                          (raw_m <= start * load<16>(kFarthestShares)) &
-                          (all<16>(CausalCanvas::kSmallestRangeM) <= raw_m);
-  const Float16 proposals_m = select(usable, raw_m, all<16>(start));
-  if constexpr (Ingredients::kExpertsOff != 0) {
-    alignas(64) float left_m[kExperts];
-    store(proposals_m, left_m);
-    for (std::size_t k = 0; k < kExperts; ++k) {
-      if ((Ingredients::kExpertsOff >> k & 1) != 0) left_m[k] = start;
-    }
-    return load<16>(left_m);
+  HWY_INLINE Surroundings(const Neighbourhood& cells, const RowMemory& memory, const Float8& reference_m)
+      : left(memory.last_m()),
+        left2(memory.before_last_m()),
+        above(cells.range_m(0, -1)),
+        above_left(cells.range_m(-1, -1)),
+        above_right(cells.range_m(1, -1)),
+        above_right2(cells.range_m(2, -1)) {
+    constexpr float kFirstGuessM = 10;  // where a band has no return yet
+    start = all<8>(kFirstGuessM);
+    for (const Float8& guess : {reference_m, above_right, above_left, above, left})
+      start = select(seen(guess), guess, start);
   }
-  return proposals_m;
+
+  HWY_INLINE Float8 or_start(const Float8& range_m) const { return select(seen(range_m), range_m, start); }
+  // Extrapolations beyond these shares of the range left of the cell are noise.
+  HWY_INLINE Float8 if_likely(const Float8& range_m) const {
+    const Mask<8> likely = (0.6F * start <= range_m) & (range_m <= 1.5F * start) & seen(range_m);
+    return select(likely, range_m, start);
+  }
+  HWY_INLINE Float8 line2() const {
+    const Float8 inverse = 2 * (all<8>(1) / larger(left, all<8>(kSmallestRangeM))) -
+                           all<8>(1) / larger(left2, all<8>(kSmallestRangeM));
+    return if_likely(where(seen(left2), inverted(inverse)));
+  }
+  HWY_INLINE Float8 step_from_above() const {
+    return if_likely(where(seen(left) & seen(above) & seen(above_right), left + (above_right - above)));
+  }
+  HWY_INLINE Float8 mean_left() const { return or_start(where(seen(left2), 0.5F * (left + left2))); }
+};
+
+HWY_INLINE Proposals<16> propose_for_key_frame(const Neighbourhood& cells, const RowMemory& memory) {
+  const Surroundings around(cells, memory, all<8>(0));
+  const LocalFits fits = fit_locally(cells, around.start, around.above);
+  Proposals<16> proposals;
+  Float8* range_m = proposals.range_m;
+  range_m[0] = around.start;
+  range_m[kKeyLine2] = around.line2();
+  range_m[kKeyPlane] = around.if_likely(inverted(fits.plane));
+  range_m[kKeyLine] = around.if_likely(inverted(fits.line));
+  range_m[kKeyParallel] = around.if_likely(inverted(fits.parallel));
+  range_m[kKeyStep] = around.step_from_above();
+  range_m[kKeyLeft] = around.start;
+  range_m[kKeyAbove] = around.or_start(around.above);
+  range_m[kKeyAboveLeft] = around.or_start(around.above_left);
+  range_m[kKeyAboveRight] = around.or_start(around.above_right);
+  range_m[kKeyAboveRight2] =
+      around.or_start(select(seen(around.above_right2), around.above_right2, around.above_right));
+  range_m[kKeyLeft2] = around.or_start(around.left2);
+  range_m[kKeyLeft3] = around.or_start(cells.range_m(-3));
+  range_m[kKeyMeanLeft] = around.mean_left();
+  range_m[kKeyEdge] = around.or_start(memory.edge_m());
+  range_m[kKeyEarlierEdge] = around.or_start(memory.earlier_edge_m());
+  return proposals;
+}
+
+// Mean difference of what is coded around a cell to the reference, where the two show the same surface.
+HWY_INLINE Float8 mean_difference(const Neighbourhood& cells, const ReferenceView& reference) {
+  constexpr float kSameSurfaceM = 0.4F;
+  Float8 sum = all<8>(0), count = all<8>(1);
+  const auto add = [&](int column, int row) HWY_ATTR {
+    const Float8 coded_m = cells.range_m(column, row);
+    const Float8 reference_m = reference.range_m(column, row);
+    const Float8 difference = coded_m - reference_m;
+    const Mask<8> same = (absolute(difference) <= all<8>(kSameSurfaceM)) & seen(coded_m) & seen(reference_m);
+    sum = sum + where(same, difference);
+    count = count + where(same, all<8>(1));
+  };
+  for (int column = -4; column < 0; ++column) add(column, 0);
+  for (int column = -2; column <= 2; ++column) add(column, -1);
+  return sum / count;
+}
+
+template <std::size_t kExperts>
+HWY_INLINE Proposals<kExperts> propose_for_predicted_frame(const Neighbourhood& cells, const RowMemory& memory,
+                                                           const ReferenceView& reference) {
+  const Float8 here = reference.range_m(0);
+  const Float8 west = reference.range_m(-1), east = reference.range_m(1);
+  const Float8 north = reference.range_m(0, -1);
+  const Surroundings around(cells, memory, here);
+  const LocalFits fits = fit_locally(cells, around.start, around.above);
+  const Float8 shift = mean_difference(cells, reference);
+  constexpr float kSmoothM = 0.3F;
+  Proposals<kExperts> proposals;
+  Float8* range_m = proposals.range_m;
+  range_m[0] = around.start;
+  range_m[kPredictedPlane] = around.if_likely(inverted(fits.plane));
+  range_m[kPredictedLine] = around.if_likely(inverted(fits.line));
+  range_m[kPredictedParallel] = around.if_likely(inverted(fits.parallel));
+  range_m[kPredictedLeft] = around.start;
+  range_m[kPredictedAbove] = around.or_start(around.above);
+  range_m[kPredictedAboveRight] = around.or_start(around.above_right);
+  range_m[kPredictedEdge] = around.or_start(memory.edge_m());
+  range_m[kReferenceHere] = around.or_start(here);
+  range_m[kReferenceShifted] = around.or_start(where(seen(here), here + shift));
+  range_m[kReferenceLeftStep] =
+      around.if_likely(where(seen(here) & seen(west) & seen(around.left), around.left + (here - west)));
+  range_m[kReferenceAboveStep] =
+      around.if_likely(where(seen(here) & seen(north) & seen(around.above), around.above + (here - north)));
+  const Float8 reference_or_start = range_m[kReferenceHere];
+  const auto or_here = [&](const Float8& m) HWY_ATTR { return select(seen(m), m, reference_or_start); };
+  range_m[kReferenceRight] = or_here(east);
+  range_m[kReferenceLeft] = or_here(west);
+  range_m[kReferenceBelow] = or_here(reference.range_m(0, 1));
+  {
+    Float8 sum = here, count = all<8>(1);
+    for (const Float8& beside : {west, east}) {
+      const Mask<8> smooth = absolute(beside - here) <= all<8>(kSmoothM);
+      sum = sum + where(smooth, beside);
+      count = count + where(smooth, all<8>(1));
+    }
+    range_m[kReferenceMean] = around.or_start(where(seen(here), sum / count + shift));
+  }
+  if constexpr (kExperts == 24) {
+    range_m[kPredictedLine2] = around.line2();
+    range_m[kPredictedStep] = around.step_from_above();
+    range_m[kPredictedAboveLeft] = around.or_start(around.above_left);
+    range_m[kPredictedAboveRight2] =
+        around.or_start(select(seen(around.above_right2), around.above_right2, around.above_right));
+    range_m[kPredictedLeft2] = around.or_start(around.left2);
+    range_m[kPredictedLeft3] = around.or_start(cells.range_m(-3));
+    range_m[kPredictedMeanLeft] = around.mean_left();
+    range_m[kPredictedEarlierEdge] = around.or_start(memory.earlier_edge_m());
+  }
+  return proposals;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -1,4 +1,4 @@
-// Least-squares fits in inverse range around a cell, from the cells before it.
+// Least-squares fits in inverse range around a cell, from the cells before it; eight cells at once.
 //
 // Along a plane, 1/range is linear in the tangents of the angles, so over a few cells nearly linear in row
 // and column. Cells count when their range is similar to a reference: the surface that is meant.
@@ -10,9 +10,8 @@
 #define POINTREEL_PREDICT_LOCAL_FITS_INL_H_
 #endif
 
-#include "predict/causal_canvas.h"
 #include "predict/fit_kernels.h"
-#include "predict/float16-inl.h"
+#include "predict/neighbourhood-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pointreel {
@@ -20,87 +19,101 @@ namespace HWY_NAMESPACE {
 
 // Inverse ranges; 0 where too few cells are similar.
 struct LocalFits {
-  float plane = 0;     // plane through the cells left and in the two rows above
-  float line = 0;      // line through the cells left
-  float parallel = 0;  // cell above, plus the mean step from the row above to this one left of the cell
+  Float8 plane;     // plane through the cells left and in the two rows above
+  Float8 line;      // line through the cells left
+  Float8 parallel;  // cell above, plus the mean step from the row above to this one left of the cell
+
+  HWY_INLINE LocalFits() {}
 };
 
 // Cells are similar within a few per cent, and 0.3 m for near ones.
-HWY_INLINE Mask<8> similar(const Float8& range_m, float reference_m) {
-  return (absolute(range_m - all<8>(reference_m)) <= all<8>(0.03F * reference_m + 0.3F)) &
-         (all<8>(CausalCanvas::kSmallestRangeM) <= range_m);
-}
+struct Similarity {
+  Float8 reference_m, tolerance_m;
 
-// `reference_m`: range of the surface, `above_m`: range of the cell above or 0.
-HWY_INLINE LocalFits fit_locally(const CausalCanvas& canvas, std::size_t index, float reference_m,
-                                 float above_m) {
+  HWY_INLINE explicit Similarity(const Float8& reference)
+      : reference_m(reference), tolerance_m(0.03F * reference + all<8>(0.3F)) {}
+  HWY_INLINE Mask<8> operator()(const Float8& range_m) const {
+    return (absolute(range_m - reference_m) <= tolerance_m) & (all<8>(kSmallestRangeM) <= range_m);
+  }
+};
+
+// Sums of one row over the similar cells: w, w x, w x^2, w u, w x u.
+struct RowSums {
+  Float8 w = all<8>(0), wx = all<8>(0), wxx = all<8>(0), wu = all<8>(0), wxu = all<8>(0);
+
+  HWY_INLINE void add(const Mask<8>& counts, float weight, float x, const Float8& u) {
+    w = w + where(counts, all<8>(weight));
+    wx = wx + where(counts, all<8>(weight * x));
+    wxx = wxx + where(counts, all<8>(weight * x * x));
+    const Float8 weighted = where(counts, weight * u);
+    wu = wu + weighted;
+    wxu = wxu + x * weighted;
+  }
+};
+
+// The plane's value at the cell itself, from u = a + b x + c y, by Cramer's rule for a; y counts rows
+// downwards, kY columns a row.
+HWY_INLINE Float8 plane_at_cell(const RowSums& here, const RowSums& above, const RowSums& above2,
+                                const Float8& offset) {
   constexpr float kRidge = 1e-2F;  // keeps slopes small where they cannot be told
   constexpr float kSmallestDeterminant = 1e-9F;
-  static_assert(FitKernels::kLanes == 8);
-  const FitKernels& kernels = kFitKernels;
-  const std::size_t first = index + static_cast<std::size_t>(FitKernels::kFirstHere);
-  const std::size_t above = index - canvas.stride() + static_cast<std::size_t>(FitKernels::kFirstAbove);
-  const std::size_t above2 = above - canvas.stride();
-  const float inverse_reference = 1 / reference_m;
-  const Float8 from_reference = all<8>(inverse_reference);
+  constexpr float kY = FitKernels::kColumnsPerRow;
+  const Float8 m00 = here.w + (above.w + above2.w);
+  const Float8 m01 = here.wx + (above.wx + above2.wx);
+  const Float8 m02 = -kY * (above.w + 2 * above2.w);
+  const Float8 m11 = here.wxx + (above.wxx + above2.wxx) + all<8>(kRidge);
+  const Float8 m12 = -kY * (above.wx + 2 * above2.wx);
+  const Float8 m22 = (kY * kY) * (above.w + 4 * above2.w) + all<8>(kRidge);
+  const Float8 v0 = here.wu + (above.wu + above2.wu);
+  const Float8 v1 = here.wxu + (above.wxu + above2.wxu);
+  const Float8 v2 = -kY * (above.wu + 2 * above2.wu);
+  const Float8 minor0 = m11 * m22 - m12 * m12;
+  const Float8 minor1 = v1 * m22 - m12 * v2;
+  const Float8 minor2 = v1 * m12 - m11 * v2;
+  const Float8 determinant = m00 * minor0 - m01 * (m01 * m22 - m12 * m02) + m02 * (m01 * m12 - m11 * m02);
+  const Float8 value = (v0 * minor0 - m01 * minor1 + m02 * minor2) / larger(determinant, all<8>(kSmallestDeterminant));
+  return where(all<8>(kSmallestDeterminant) <= determinant, value + offset);
+}
 
-  const Float8 inverse_here = load<8>(canvas.inverse_range(first));
-  const Mask<8> similar_here = similar(load<8>(canvas.range_m(first)), reference_m);
-  const Float8 u = inverse_here - from_reference;
-  const Float8 x = load<8>(kernels.x_here);
+// `reference_m`: range of the surface, `above_m`: range of the cells above or 0.
+HWY_INLINE LocalFits fit_locally(const Neighbourhood& cells, const Float8& reference_m, const Float8& above_m) {
+  const FitKernels& kernels = kFitKernels;
+  const Similarity similar(reference_m);
+  const Similarity similar_above(above_m);
+  const Float8 inverse_reference = all<8>(1) / reference_m;
+  RowSums here, above, above2, line;
+  Float8 parallel_weight = all<8>(0), parallel_step = all<8>(0);
+  for (int i = 0; i < FitKernels::kHere; ++i) {
+    const int column = FitKernels::kFirstHere + i;
+    const auto x = static_cast<float>(column);
+    const Float8 inverse = cells.inverse_range(column);
+    const Mask<8> counts = similar(cells.range_m(column));
+    const Float8 u = inverse - inverse_reference;
+    here.add(counts, kernels.plane_here[i], x, u);
+    line.add(counts, kernels.line[i], x, u);
+    const Float8 both = where(counts & similar_above(cells.range_m(column, -1)), all<8>(kernels.line[i]));
+    parallel_weight = parallel_weight + both;
+    parallel_step = parallel_step + both * (inverse - cells.inverse_range(column, -1));
+  }
+  for (int i = 0; i < FitKernels::kAbove; ++i) {
+    const int column = FitKernels::kFirstAbove + i;
+    const auto x = static_cast<float>(column);
+    above.add(similar(cells.range_m(column, -1)), kernels.plane_above[i], x,
+              cells.inverse_range(column, -1) - inverse_reference);
+    above2.add(similar(cells.range_m(column, -2)), kernels.plane_above2[i], x,
+               cells.inverse_range(column, -2) - inverse_reference);
+  }
   LocalFits fits;
+  fits.plane = plane_at_cell(here, above, above2, inverse_reference);
   {
-    // Normal equations of u = a + b x + c y, by Cramer's rule for a; y counts rows downwards.
-    const Float8 w0 = where(similar_here, load<8>(kernels.plane_here));
-    const Float8 w1 =
-        where(similar(load<8>(canvas.range_m(above)), reference_m), load<8>(kernels.plane_above));
-    const Float8 w2 =
-        where(similar(load<8>(canvas.range_m(above2)), reference_m), load<8>(kernels.plane_above2));
-    const Float8 x_above = load<8>(kernels.x_above);
-    const Float8 w12 = w1 + w2;
-    const Float8 wx0 = w0 * x, wx12 = w12 * x_above;
-    const Float8 wu0 = w0 * u;
-    const Float8 wu1 = w1 * (load<8>(canvas.inverse_range(above)) - from_reference);
-    const Float8 wu2 = w2 * (load<8>(canvas.inverse_range(above2)) - from_reference);
-    const Float8 wu12 = wu1 + wu2;
-    constexpr float kY = FitKernels::kColumnsPerRow;
-    const Float8 wy = w12 + w2;  // in units of -kY
-    const float m00 = sum(w0 + w12);
-    const float m01 = sum(wx0 + wx12);
-    const float m02 = -kY * sum(wy);
-    const float m11 = sum(wx0 * x + wx12 * x_above) + kRidge;
-    const float m12 = -kY * sum(wy * x_above);
-    const float m22 = kY * kY * sum(wy + w2 + w2) + kRidge;
-    const float v0 = sum(wu0 + wu12);
-    const float v1 = sum(wu0 * x + wu12 * x_above);
-    const float v2 = -kY * sum(wu12 + wu2);
-    const float minor0 = m11 * m22 - m12 * m12;
-    const float minor1 = v1 * m22 - m12 * v2;
-    const float minor2 = v1 * m12 - m11 * v2;
-    const float determinant = m00 * minor0 - m01 * (m01 * m22 - m12 * m02) + m02 * (m01 * m12 - m11 * m02);
-    if (m00 > 0 && determinant > kSmallestDeterminant) {
-      fits.plane = (v0 * minor0 - m01 * minor1 + m02 * minor2) / determinant + inverse_reference;
-    }
+    constexpr float kSmallestDeterminant = 1e-9F;
+    const Float8 wxx = line.wxx + all<8>(0.5F);
+    const Float8 determinant = line.w * wxx - line.wx * line.wx;
+    const Float8 value = (line.wu * wxx - line.wxu * line.wx) / larger(determinant, all<8>(kSmallestDeterminant));
+    fits.line = where(all<8>(kSmallestDeterminant) <= determinant, value + inverse_reference);
   }
-  {
-    const Float8 w = where(similar_here, load<8>(kernels.line));
-    const Float8 wx = w * x, wu = w * u;
-    const float m0 = sum(w), m1 = sum(wx), m2 = sum(wx * x) + 0.5F;
-    const float determinant = m0 * m2 - m1 * m1;
-    if (m0 > 0 && determinant > kSmallestDeterminant) {
-      fits.line = (sum(wu) * m2 - sum(wu * x) * m1) / determinant + inverse_reference;
-    }
-  }
-  if (above_m > 0) {
-    const std::size_t first_above = first - canvas.stride();
-    const Float8 w =
-        where(similar_here & similar(load<8>(canvas.range_m(first_above)), above_m), load<8>(kernels.line));
-    const float total = sum(w);
-    if (total > 0) {
-      fits.parallel =
-          1 / above_m + sum(w * (inverse_here - load<8>(canvas.inverse_range(first_above)))) / total;
-    }
-  }
+  const Mask<8> has_parallel = (all<8>(kSmallestRangeM) <= above_m) & (all<8>(1e-3F) <= parallel_weight);
+  fits.parallel = where(has_parallel, cells.inverse_range(0, -1) + parallel_step / larger(parallel_weight, all<8>(1e-3F)));
   return fits;
 }
 

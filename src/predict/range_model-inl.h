@@ -1,4 +1,4 @@
-// Predicts and codes the ranges of one band of rows, cell by cell in raster order.
+// Predicts and codes the ranges of one band of rows, along the wavefront.
 //
 //   propose -> weigh by recent errors -> mix -> code the bin -> reconstruct -> learn
 //
@@ -11,8 +11,6 @@
 #define POINTREEL_PREDICT_RANGE_MODEL_INL_H_
 #endif
 
-#include <vector>
-
 #include "predict/band_coding.h"
 #include "predict/experts-inl.h"
 #include "predict/step_coder-inl.h"
@@ -21,80 +19,112 @@ HWY_BEFORE_NAMESPACE();
 namespace pointreel {
 namespace HWY_NAMESPACE {
 
-template <class Ingredients = AllIngredients>
+template <class Ingredients, std::size_t kExperts, bool kPredicted>
 class RangeModel {
  public:
-  RangeModel(const Band& band, int columns, const RangeQuantiser& quantiser, RangeModelState& state)
+  RangeModel(int columns, const RangeQuantiser& quantiser, RangeModelState& state)
       : step_m_(quantiser.step_m),
         on_lattice_(quantiser.on_lattice()),
-        canvas_(band.rows, columns),
+        planes_(columns),
         errors_(columns),
-        steps_(static_cast<std::size_t>(band.rows + CausalCanvas::kRowsAbove) * canvas_.stride(), kNoSteps),
+        steps_(columns),
         state_(state) {}
 
-  // Before the first cell of each row. `phase_m`: where the row's lattice has a point.
-  void start_row(int row, float phase_m) {
-    row_ = row;
-    phase_m_ = phase_m;
-    memory_.start_row();
-    errors_.start_row();
+  // `lattice_phase_m`: per row, where its lattice has a point.
+  void start_block(bool first, const std::array<float, Wavefront::kRows>& lattice_phase_m) {
+    if (!first) {
+      planes_.start_next_block();
+      errors_.start_next_block();
+      steps_.start_next_block();
+    }
+    memory_ = RowMemory();
+    lattice_phase_m_ = lattice_phase_m;
   }
 
-  // Codes the range of a cell that holds a return and gives back the reconstruction, within half a step of
-  // `range_m` (which a decoder ignores). Cells of a row from left to right.
+  // Looks at what is known of eight cells.
+  HWY_INLINE void predict(int step, const ReferencePlanes* reference) {
+    const Neighbourhood cells(planes_, step);
+    if constexpr (kPredicted) {
+      proposals_ = propose_for_predicted_frame<kExperts>(cells, memory_, ReferenceView(*reference, step));
+    } else {
+      proposals_ = propose_for_key_frame(cells, memory_);
+    }
+    if constexpr (Ingredients::kExpertsOff != 0) leave_out_experts();
+    blend<kExperts>(errors_, cells, step, step_m_, proposals_, blended_);
+    contexts_ = StepContexts(steps_, cells, step);
+    for (std::size_t i = 0; i < Wavefront::kRows; ++i) {
+      decoded_m_[i] = 0;
+      coded_steps_[i] = 0;
+    }
+  }
+
+  // Codes the range of one of them, which holds a return, and gives back the reconstruction, within half a
+  // step of `range_m` (which a decoder ignores). `row`: in the band.
   template <class Coder>
-  float code(Coder& coder, int column, float range_m) {
-    constexpr float kUnknownSquaredSteps = 30;  // the experts' error where no neighbour is known
-    const std::size_t index = canvas_.index(row_, column);
+  HWY_INLINE float code(Coder& coder, std::size_t cell, int row, float range_m) {
     const float step_m = step_m_;
-    const Float16 proposals_m = propose_ranges<Ingredients>(canvas_, index, column, memory_);
-    const Float16 errors =
-        recent_errors(errors_, canvas_, index, column, kUnknownSquaredSteps * step_m * step_m);
-    const Mixture mixture(state_.mixture, proposals_m, errors, step_m);
-    const float origin_m = on_lattice_ ? on_lattice(mixture.blend_m()) : mixture.blend_m();
-
-    const std::size_t above = index - canvas_.stride();
-    const StepContext context(&steps_[index], &steps_[above], canvas_.range_m(index)[-1] > 0,
-                              *canvas_.range_m(above) > 0, row_, mixture.blend_class());
-    Mixture::Border lower, upper;
+    const Mixture<kExperts> mixture(state_.mixture, blended_, cell);
+    const float blend_m = blended_.blend_m[cell];
+    const float origin_m = on_lattice_ ? on_lattice(blend_m, lattice_phase_m_[cell]) : blend_m;
+    const StepContext context = contexts_.of(cell, row, blended_.error_class[cell]);
     const std::int32_t wanted = Coder::kDecodes ? 0 : rounded((range_m - origin_m) / step_m);
-    const std::int32_t steps =
-        StepCoder<Coder, Ingredients>(coder, state_.steps, mixture, context, origin_m, step_m)
-            .code(wanted, lower, upper);
-    mixture.learn<Ingredients>(lower, upper, state_.mixture);
+    StepCoder<Coder, Ingredients, kExperts> step_coder(coder, state_.steps, mixture, context, origin_m, step_m);
+    const std::int32_t steps = step_coder.code(wanted);
+    mixture.template learn<Ingredients>(step_coder.lower(), step_coder.upper(), state_.mixture);
+    const float decoded_m = origin_m + static_cast<float>(steps) * step_m;
+    decoded_m_[cell] = decoded_m > kSmallestRangeM ? decoded_m : kSmallestRangeM;
+    coded_steps_[cell] = steps < -kMostContextSteps ? -kMostContextSteps
+                         : steps > kMostContextSteps ? kMostContextSteps
+                                                     : steps;
+    return decoded_m_[cell];
+  }
 
-    const float decoded_m = at_least_smallest(origin_m + static_cast<float>(steps) * step_m);
-    store_errors(mixture.proposals_m(), decoded_m, errors_.at(0, column));
-    memory_.add(column, decoded_m);
-    canvas_.set(index, decoded_m);
-    steps_[index] = clipped_steps(steps);
-    return decoded_m;
+  // What the eight decode to; 0 where there is no return.
+  HWY_INLINE Float8 decoded_m() const { return load<8>(decoded_m_); }
+
+  // After the last of the eight: remembers them.
+  HWY_INLINE void remember(int step) {
+    const Float8 decoded_m = this->decoded_m();
+    store(decoded_m, planes_.range_m.at(step));
+    store(where(seen(decoded_m), all<8>(1) / larger(decoded_m, all<8>(kSmallestRangeM))),
+          planes_.inverse_range.at(step));
+    store(load_ints<8>(coded_steps_), steps_.at(step));
+    store_errors<kExperts>(proposals_, decoded_m, step, errors_);
+    memory_.add(decoded_m);
   }
 
  private:
-  static float at_least_smallest(float range_m) {
-    return range_m > CausalCanvas::kSmallestRangeM ? range_m : CausalCanvas::kSmallestRangeM;
-  }
   // Hostile streams reach beyond the integers, where processors disagree about conversions.
-  static std::int32_t rounded(float x) {
+  static HWY_INLINE std::int32_t rounded(float x) {
     constexpr float kMost = 1 << 30;
     x = x < kMost ? x : kMost;
     x = x > -kMost ? x : -kMost;
     return x < 0 ? -static_cast<std::int32_t>(0.5F - x) : static_cast<std::int32_t>(x + 0.5F);
   }
-  float on_lattice(float range_m) const {
-    return static_cast<float>(rounded((range_m - phase_m_) / step_m_)) * step_m_ + phase_m_;
+  HWY_INLINE float on_lattice(float range_m, float phase_m) const {
+    return static_cast<float>(rounded((range_m - phase_m) / step_m_)) * step_m_ + phase_m;
+  }
+  void leave_out_experts() {
+    for (std::size_t k = 0; k < kExperts; ++k) {
+      if ((Ingredients::kExpertsOff >> k & 1) != 0) proposals_.range_m[k] = proposals_.range_m[0];
+    }
   }
 
   float step_m_;
   bool on_lattice_;
-  CausalCanvas canvas_;
+  RangePlanes planes_;
+  ErrorPlanes<kExperts> errors_;
+  SkewedPlane<std::int32_t> steps_;  // clipped
   RowMemory memory_;
-  ErrorHistory errors_;
-  std::vector<std::uint8_t> steps_;  // clipped
   RangeModelState& state_;
-  int row_ = 0;
-  float phase_m_ = 0;
+  std::array<float, Wavefront::kRows> lattice_phase_m_{};
+
+  // Of the eight cells at hand.
+  Proposals<kExperts> proposals_;
+  BlendedProposals<kExperts> blended_;
+  StepContexts contexts_;
+  alignas(32) float decoded_m_[Wavefront::kRows];
+  alignas(32) std::int32_t coded_steps_[Wavefront::kRows];
 };
 
 }  // namespace HWY_NAMESPACE

@@ -1,0 +1,117 @@
+// Trains the priors of method `mixture`.
+//
+//   train_priors SWEEP... > src/predict/priors_data.cpp
+//
+// For each kind of frame and size of the step all sweeps are coded twice with a state that is never reset; the
+// priors are the mean of what it was at the ends of the bands in the second pass. Predicted frames have the sweep
+// before them as their reference, as it was decoded.
+#include <CLI/CLI.hpp>
+
+#include "predict/band_coding.h"
+#include "prior_trainer.h"
+#include "training_images.h"
+
+namespace pointreel {
+namespace {
+
+constexpr int kMostRows = 512;
+
+BandState untrained(const CodingKind& kind) {
+  BandState state{HitMaskState(kMostRows), {}};
+  for (auto& mixer : state.mask.mixers) mixer.weight.fill(0.25F);
+  for (auto& at : state.ranges.mixture.classes) {
+    const std::size_t experts = experts_of(kind);
+    for (std::size_t k = 0; k < experts; ++k) {
+      at.weight[k] = 1;
+      at.inverse_scale[k] = 5;
+    }
+    at.per_total_weight = 1 / static_cast<float>(experts);
+  }
+  // The mixture has all the say at first.
+  for (auto& mixer : state.ranges.steps.zero_mixers) mixer.weight[0] = 1;
+  for (auto& mixer : state.ranges.steps.sign_mixers) mixer.weight[0] = 1;
+  for (auto& mixer : state.ranges.steps.more_mixers) mixer.weight[0] = 1;
+  return state;
+}
+
+struct Means {
+  PriorMean ranges, mask;
+};
+
+Means train(const std::vector<TrainingDrive>& drives, const CodingKind& kind, float step_m) {
+  const RangeQuantiser quantiser{step_m, {}};
+  BandState running = untrained(kind);
+  Means means;
+  for (const bool counts : {false, true}) {
+    for (const TrainingDrive& drive : drives) {
+      std::vector<float> previous_m;
+      for (std::size_t i = 0; i < drive.sweeps.size(); ++i) {
+        GridImage image = drive.sweeps[i].image;
+        ReferenceImage reference;
+        const bool has_reference = i > 0 && drive.sweeps[i].T_previous_this.has_value();
+        if (kind.predicted && has_reference) reference = reference_of(drive, i, previous_m);
+        if (!kind.predicted || has_reference) {
+          for (const Band& band : bands_of(image.rows, image.columns)) {
+            encode_band({kind, quantiser, &reference}, band, image, running);
+            if (!counts) continue;
+            means.ranges.start_visit();
+            visit_range_state(running.ranges, experts_of(kind), means.ranges);
+            means.mask.start_visit();
+            visit_hit_mask_state(running.mask, means.mask);
+          }
+        } else {
+          for (float& range_m : image.range_m) range_m = std::round(range_m / step_m) * step_m;
+        }
+        previous_m = std::move(image.range_m);
+      }
+    }
+  }
+  return means;
+}
+
+void train_all(const std::vector<TrainingDrive>& drives) {
+  constexpr float kMaskStepM = 0.04F;
+  fmt::print(
+      "// Made by bench/train_priors.\n#include \"predict/priors.h\"\n\nnamespace pointreel {{\nnamespace {{\n\n"
+      "// clang-format off\n");
+  const struct {
+    const char* name;
+    CodingKind kind;
+  } kinds[] = {{"Key", {false, Effort::balanced}},
+               {"Predicted", {true, Effort::balanced}},
+               {"PredictedMax", {true, Effort::max}}};
+  for (const auto& [name, kind] : kinds) {
+    for (std::size_t set = 0; set < kPriorSteps.size(); ++set) {
+      const Means means = train(drives, kind, kPriorSteps[set]);
+      means.ranges.print(fmt::format("k{}{}", name, set));
+      if (kPriorSteps[set] == kMaskStepM && kind.effort == Effort::balanced)
+        means.mask.print(fmt::format("k{}Mask", name));
+    }
+  }
+  fmt::print("// clang-format on\n\n");
+  for (const auto& [name, kind] : kinds) {
+    fmt::print("constexpr std::span<const std::int8_t> k{}[] = {{", name);
+    for (std::size_t set = 0; set < kPriorSteps.size(); ++set) fmt::print("{}k{}{}", set > 0 ? ", " : "", name, set);
+    fmt::print("}};\n");
+  }
+  fmt::print(
+      "\n}}  // namespace\n\n"
+      "std::span<const std::int8_t> hit_mask_priors(bool predicted) {{\n"
+      "  return predicted ? std::span<const std::int8_t>(kPredictedMask) : kKeyMask;\n}}\n\n"
+      "std::span<const std::int8_t> range_priors(const CodingKind& kind, std::size_t set) {{\n"
+      "  if (!kind.predicted) return kKey[set];\n"
+      "  return kind.effort == Effort::max ? kPredictedMax[set] : kPredicted[set];\n}}\n\n"
+      "}}  // namespace pointreel\n");
+}
+
+}  // namespace
+}  // namespace pointreel
+
+int main(int argc, char** argv) {
+  CLI::App app("Trains the priors of method mixture");
+  std::vector<std::string> sweeps;
+  app.add_option("SWEEP", sweeps, "Sweeps: files, folders or globs; consecutive ones of a folder")->required();
+  CLI11_PARSE(app, argc, argv);
+  pointreel::train_all(pointreel::training_drives(sweeps));
+  return 0;
+}

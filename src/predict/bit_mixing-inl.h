@@ -1,0 +1,81 @@
+// Mixing several predictions of one bit: each is stretched to ln(p / (1 - p)), a weighted sum of those is
+// squashed back to a probability, and the weights follow the gradient of the code length. As bit_mixer.h, but in
+// floats: fewer instructions, and + and * in one fixed order still give the same bits everywhere.
+
+#if defined(POINTREEL_PREDICT_BIT_MIXING_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef POINTREEL_PREDICT_BIT_MIXING_INL_H_
+#undef POINTREEL_PREDICT_BIT_MIXING_INL_H_
+#else
+#define POINTREEL_PREDICT_BIT_MIXING_INL_H_
+#endif
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "entropy/bit_mixer.h"
+#include "predict/lanes-inl.h"
+#include "predict/mixer_weights.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pointreel {
+namespace HWY_NAMESPACE {
+
+inline constexpr float kStretchUnit = 1.F / 256;  // of entropy/bit_mixer.h
+
+inline constexpr auto kStretchTable = [] {
+  std::array<float, bit_mixer_detail::kStretch.size()> table{};
+  for (std::size_t i = 0; i < table.size(); ++i)
+    table[i] = static_cast<float>(bit_mixer_detail::kStretch[i]) * kStretchUnit;
+  return table;
+}();
+// Within what the coders accept.
+inline constexpr auto kSquashTable = [] {
+  std::array<std::uint16_t, bit_mixer_detail::kSquash.size()> table{};
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const std::uint32_t p = bit_mixer_detail::kSquash[i];
+    table[i] = static_cast<std::uint16_t>(p < kMinProbability ? kMinProbability : p > 65536 - kMinProbability ? 65536 - kMinProbability : p);
+  }
+  return table;
+}();
+
+// Without a branch, which a ternary becomes.
+HWY_INLINE float clamped(float x, float least, float most) {
+  const hn::CappedTag<float, 1> one;
+  return hn::GetLane(hn::Max(hn::Min(hn::Set(one, x), hn::Set(one, most)), hn::Set(one, least)));
+}
+
+// ln(p / (1 - p)), within +-8.
+HWY_INLINE float stretched(float p) {
+  constexpr auto kEntries = static_cast<float>(kStretchTable.size());
+  return kStretchTable[static_cast<std::uint32_t>(static_cast<std::int32_t>(clamped(p * kEntries, 0, kEntries - 1)))];
+}
+HWY_INLINE float stretched(const CountedBit& bit) {
+  return kStretchTable[bit.p_one() >> (kProbabilityBits - bit_mixer_detail::kStretchIndexBits)];
+}
+
+template <std::size_t kInputs, std::size_t kWeights>
+HWY_INLINE Probability16 mix(const MixerWeights<kWeights>& mixer, const std::array<float, kInputs>& inputs) {
+  static_assert(kInputs <= kWeights);
+  constexpr auto kMost = static_cast<float>(kMaxStretch);
+  float sum = mixer.weight[0] * inputs[0];
+  for (std::size_t i = 1; i < kInputs; ++i) sum = sum + mixer.weight[i] * inputs[i];
+  const float index = clamped(sum * (1 / kStretchUnit) + (kMost + 0.5F), 0, 2 * kMost);
+  return kSquashTable[static_cast<std::uint32_t>(static_cast<std::int32_t>(index))];
+}
+
+// `p_one` is what mix() gave for these inputs. Weights move by rate * error * input: at most rate * 8 a bit, so
+// that no image of legal size makes them overflow.
+template <std::size_t kInputs, std::size_t kWeights>
+HWY_INLINE void learn(MixerWeights<kWeights>& mixer, const std::array<float, kInputs>& inputs, Probability16 p_one,
+                      bool bit, float rate) {
+  const float error =
+      static_cast<float>((bit ? 65536 : 0) - static_cast<std::int32_t>(p_one)) * (rate * (1.F / 65536));
+  for (std::size_t i = 0; i < kInputs; ++i) mixer.weight[i] = mixer.weight[i] + error * inputs[i];
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace pointreel
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target

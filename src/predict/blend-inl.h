@@ -1,0 +1,124 @@
+// The blend: the experts' proposals weighed by how well each did around the cell; eight cells at once.
+
+#if defined(POINTREEL_PREDICT_BLEND_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef POINTREEL_PREDICT_BLEND_INL_H_
+#undef POINTREEL_PREDICT_BLEND_INL_H_
+#else
+#define POINTREEL_PREDICT_BLEND_INL_H_
+#endif
+
+#include "predict/experts-inl.h"
+#include "predict/neighbourhood-inl.h"
+#include "predict/range_state.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pointreel {
+namespace HWY_NAMESPACE {
+
+inline constexpr float kLargestSquaredErrorM2 = 4;  // an edge, whatever its depth
+
+template <std::size_t kExperts>
+using ErrorPlanes = SkewedPlane<float, static_cast<int>(kExperts)>;
+
+// Weights of the coded neighbours of a cell in the recent errors; 0 where there is none.
+struct NeighbourWeights {
+  Float8 left, left2, above, above_left, above_right, above2;
+  Float8 total;
+
+  HWY_INLINE explicit NeighbourWeights(const Neighbourhood& cells)
+      : left(where(seen(cells.range_m(-1)), all<8>(2))),
+        left2(where(seen(cells.range_m(-2)), all<8>(0.7F))),
+        above(where(seen(cells.range_m(0, -1)), all<8>(1))),
+        above_left(where(seen(cells.range_m(-1, -1)), all<8>(1))),
+        above_right(where(seen(cells.range_m(1, -1)), all<8>(1))),
+        above2(where(seen(cells.range_m(0, -2)), all<8>(0.7F))),
+        total(((left + left2) + (above + above2)) + (above_left + above_right)) {
+    const Float8 per_total = where(all<8>(0.5F) <= total, all<8>(1) / larger(total, all<8>(0.5F)));
+    for (Float8* weight : {&left, &left2, &above, &above_left, &above_right, &above2})
+      *weight = *weight * per_total;
+  }
+};
+
+// Of eight cells: the proposals with the blend in lane 0, what scales their distributions, and the class of
+// the blend's recent error.
+template <std::size_t kExperts>
+struct BlendedProposals {
+  TurnedLanes<kExperts / 4> range_m;
+  TurnedLanes<kExperts / 4> inverse_scale;  // sqrt(floor / mean squared error) / step
+  alignas(32) float blend_m[8];
+  alignas(32) std::int32_t error_class[8];
+
+  HWY_INLINE BlendedProposals() {}
+};
+
+// Half octaves from a mean squared error in squared steps.
+HWY_INLINE Int8 error_classes(const Float8& squared_steps) {
+  constexpr float kFloor = 0.0016F;  // below it errors are the quantiser's
+  const Int8 octave = shifted_right<23>(bits_of(squared_steps + all<8>(kFloor)));
+  return smaller(octave - all_ints<8>(127 + kFirstClassLog2),
+                 all_ints<8>(static_cast<std::int32_t>(kErrorClasses) - 1));
+}
+
+// The blend is the mean of the proposals but lane 0, weighted by the inverse fourth power of their recent
+// errors. It replaces lane 0 of `proposals`.
+template <std::size_t kExperts>
+HWY_INLINE void blend(const ErrorPlanes<kExperts>& errors, const Neighbourhood& cells, int step, float step_m,
+                      Proposals<kExperts>& proposals, BlendedProposals<kExperts>& blended) {
+  constexpr float kUnknownSquaredSteps = 30;  // the experts' error where no neighbour is known
+  constexpr std::ptrdiff_t kPitch = ErrorPlanes<kExperts>::kPitch;
+  const NeighbourWeights weights(cells);
+  const float squared_step = step_m * step_m;
+  const float floor = squared_step * 0.08F + 1e-5F;
+  const Mask<8> none = weights.total <= all<8>(0);
+  const Float8 unknown = where(none, all<8>(kUnknownSquaredSteps * squared_step));
+  const float* left = errors.at(step, -1);
+  const float* left2 = errors.at(step, -2);
+  const float* above = errors.at(step, 0, -1);
+  const float* above_left = errors.at(step, -1, -1);
+  const float* above_right = errors.at(step, 1, -1);
+  const float* above2 = errors.at(step, 0, -2);
+  Float8 weighted = all<8>(0), total = all<8>(0);
+  Float8 inverse_scale[kExperts];
+  for (std::size_t k = 0; k < kExperts; ++k) {
+    const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(k) * kPitch;
+    const Float8 in_row = load<8>(left + at) * weights.left + load<8>(left2 + at) * weights.left2;
+    const Float8 in_column = load<8>(above + at) * weights.above + load<8>(above2 + at) * weights.above2;
+    const Float8 across =
+        load<8>(above_left + at) * weights.above_left + load<8>(above_right + at) * weights.above_right;
+    const Float8 mean_square = ((in_row + in_column) + across) + unknown;
+    const Float8 precision = all<8>(1) / (mean_square + all<8>(floor));
+    inverse_scale[k] = (1 / step_m) * square_root(floor * precision);
+    if (k == 0) {
+      store(error_classes((1 / squared_step) * mean_square), blended.error_class);
+    } else {
+      const Float8 weight = precision * precision;
+      weighted = weighted + weight * proposals.range_m[k];
+      total = total + weight;
+    }
+  }
+  proposals.range_m[0] = weighted / total;
+  store(proposals.range_m[0], blended.blend_m);
+  for (std::size_t g = 0; g < kExperts / 4; ++g) {
+    const Float8* r = &proposals.range_m[4 * g];
+    const Float8* s = &inverse_scale[4 * g];
+    store_turned(r[0], r[1], r[2], r[3], g, blended.range_m);
+    store_turned(s[0], s[1], s[2], s[3], g, blended.inverse_scale);
+  }
+}
+
+// Squared errors of the proposals at what was decoded, for later cells.
+template <std::size_t kExperts>
+HWY_INLINE void store_errors(const Proposals<kExperts>& proposals, const Float8& decoded_m, int step,
+                             ErrorPlanes<kExperts>& errors) {
+  float* to = errors.at(step);
+  for (std::size_t k = 0; k < kExperts; ++k) {
+    const Float8 error_m = proposals.range_m[k] - decoded_m;
+    store(smaller(error_m * error_m, all<8>(kLargestSquaredErrorM2)), to + k * ErrorPlanes<kExperts>::kPitch);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace pointreel
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target

@@ -1,0 +1,82 @@
+// Which cells of the sensor grid hold a return: one bit per cell, coded along the wavefront between the ranges.
+//
+// When a cell's bit is coded both sides know the hits and the decoded ranges of all cells before it, and all
+// of the reference. Adaptive bits, each in a context of its own, predict it, and a mixer weighs them.
+
+#if defined(POINTREEL_PREDICT_HIT_MASK_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef POINTREEL_PREDICT_HIT_MASK_INL_H_
+#undef POINTREEL_PREDICT_HIT_MASK_INL_H_
+#else
+#define POINTREEL_PREDICT_HIT_MASK_INL_H_
+#endif
+
+#include "predict/bit_mixing-inl.h"
+#include "predict/hit_mask_contexts-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pointreel {
+namespace HWY_NAMESPACE {
+
+template <bool kPredicted>
+class HitMaskModel {
+ public:
+  HitMaskModel(int columns, HitMaskState& state) : planes_(columns), state_(state) {}
+
+  void start_block(bool first) {
+    if (!first) planes_.start_next_block();
+    row_range_ = all_ints<8>(0);
+  }
+
+  // Looks at what is known of eight cells.
+  HWY_INLINE void predict(int step, const ReferencePlanes* reference) {
+    contexts_.find(planes_, row_range_, step);
+    if constexpr (kPredicted) contexts_.find_reference(planes_, ReferenceView(*reference, step), step);
+    for (std::int32_t& hit : hits_) hit = 1;  // outside the image hits are the better guess
+  }
+
+  // Codes the bit of one of them; a decoder passes anything and gets it. `row`: in the band.
+  template <class Coder>
+  HWY_INLINE bool code(Coder& coder, std::size_t cell, int row, bool hit) {
+    constexpr std::size_t kUsed = kPredicted ? std::size_t{HitMaskState::kContexts} : HitMaskState::kKeyContexts;
+    constexpr float kMixingRate = 1.F / 512;
+    std::array<CountedBit*, kUsed> slots;
+    std::array<float, kUsed> inputs;
+    for (std::size_t i = 0; i < kUsed; ++i) {
+      auto slot = static_cast<std::size_t>(contexts_.slot[i][cell]);
+      if (i == HitMaskState::kRow) slot |= static_cast<std::size_t>(row) * HitMaskState::kSlots[i];
+      if (i == HitMaskState::kRuns) slot |= contexts_.run_class(cell);
+      if (i == HitMaskState::kDensity) slot |= contexts_.density_class(cell);
+      slots[i] = &state_.bits[i][slot];
+      inputs[i] = stretched(*slots[i]);
+    }
+    auto& mixer = state_.mixers[static_cast<std::size_t>(contexts_.mixer[cell])];
+    const Probability16 p_one = mix(mixer, inputs);
+    hit = coder.code_with(hit, p_one);
+    learn(mixer, inputs, p_one, hit, kMixingRate);
+    for (CountedBit* slot : slots) slot->update(hit);
+    hits_[cell] = hit ? 1 : 0;
+    return hit;
+  }
+
+  // After the last of the eight: remembers them and their decoded ranges, 0 where there is none.
+  HWY_INLINE void remember(int step, const Float8& range_m) {
+    planes_.remember(step, load_ints<8>(hits_), range_m);
+    const Int8 range = load_ints<8>(planes_.log_range.at(step));
+    row_range_ = select(range > all_ints<8>(0), range, row_range_);
+  }
+
+ private:
+  HitMaskPlanes planes_;
+  HitMaskState& state_;
+  Int8 row_range_ = all_ints<8>(0);  // of the last hit in each row
+
+  // Of the eight cells at hand.
+  HitMaskContexts contexts_;
+  alignas(32) std::int32_t hits_[Wavefront::kRows];
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace pointreel
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target

@@ -1,0 +1,45 @@
+// Everything that the model of the hit mask learns while it codes.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "entropy/bit_mixer.h"
+#include "predict/mixer_weights.h"
+
+namespace pointreel {
+
+struct HitMaskState {
+  // kReference and kAgreement: predicted frames only.
+  enum Context : std::uint8_t { kRange, kRuns, kRow, kEdges, kDensity, kReference, kAgreement, kContexts };
+  static constexpr std::array<std::size_t, kContexts> kSlots = {768, 512, 8, 1024, 1024, 2048, 1024};
+  static constexpr std::size_t kKeyContexts = kReference;
+  static constexpr std::size_t kMixers = 32;
+
+  explicit HitMaskState(std::size_t rows) {
+    for (std::size_t i = 0; i < kContexts; ++i) bits[i].resize(i == kRow ? rows * kSlots[i] : kSlots[i]);
+  }
+
+  std::array<std::vector<CountedBit>, kContexts> bits;  // kRow: kSlots for each row
+  std::array<MixerWeights<kContexts>, kMixers> mixers;
+};
+
+// Shows a visitor all that adapts, in the order of the tables of priors (priors.h).
+template <class State, class Visitor>
+void visit_hit_mask_state(State& state, Visitor& visitor) {
+  for (std::size_t i = 0; i < HitMaskState::kContexts; ++i) {
+    if (i == HitMaskState::kRow) {
+      constexpr std::size_t kPerRow = HitMaskState::kSlots[HitMaskState::kRow];
+      visitor.bits_by_row(state.bits[i].data(), state.bits[i].size() / kPerRow, kPerRow);
+    } else {
+      for (auto& bit : state.bits[i]) visitor.bit(bit);
+    }
+  }
+  for (auto& mixer : state.mixers) {
+    for (auto& weight : mixer.weight) visitor.weight(weight);
+  }
+}
+
+}  // namespace pointreel

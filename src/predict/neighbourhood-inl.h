@@ -1,0 +1,51 @@
+// The coded cells around those of one step of the wavefront, eight at once.
+
+#if defined(POINTREEL_PREDICT_NEIGHBOURHOOD_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef POINTREEL_PREDICT_NEIGHBOURHOOD_INL_H_
+#undef POINTREEL_PREDICT_NEIGHBOURHOOD_INL_H_
+#else
+#define POINTREEL_PREDICT_NEIGHBOURHOOD_INL_H_
+#endif
+
+#include "predict/lanes-inl.h"
+#include "predict/wavefront.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pointreel {
+namespace HWY_NAMESPACE {
+
+inline constexpr float kSmallestRangeM = 1e-3F;  // of a return
+
+// Ranges as far as they are coded; 0 where there is no return.
+struct RangePlanes {
+  SkewedPlane<float> range_m, inverse_range;
+
+  explicit RangePlanes(int columns) : range_m(columns), inverse_range(columns) {}
+  void start_next_block() {
+    range_m.start_next_block();
+    inverse_range.start_next_block();
+  }
+};
+
+class Neighbourhood {
+ public:
+  HWY_INLINE Neighbourhood(const RangePlanes& planes, int step) : planes_(planes), step_(step) {}
+
+  // Columns to the right of the cell, rows below it: only cells before it are there.
+  HWY_INLINE Float8 range_m(int columns_right, int rows_down = 0) const {
+    return load<8>(planes_.range_m.at(step_, columns_right, rows_down));
+  }
+  HWY_INLINE Float8 inverse_range(int columns_right, int rows_down = 0) const {
+    return load<8>(planes_.inverse_range.at(step_, columns_right, rows_down));
+  }
+
+ private:
+  const RangePlanes& planes_;
+  int step_;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace pointreel
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target

@@ -1,0 +1,60 @@
+#include "predict/priors.h"
+
+namespace pointreel {
+namespace {
+
+// 2^(eighths / 8), exact to a rounding: + - * / only.
+float power_of_two(int eighths) {
+  constexpr double kFractions[8] = {1,
+                                    1.0905077326652577,
+                                    1.1892071150027210,
+                                    1.2968395546510096,
+                                    1.4142135623730951,
+                                    1.5422108254079407,
+                                    1.6817928305074290,
+                                    1.8340080864093424};
+  static_assert(kPriorsPerOctave == 8);
+  double result = kFractions[eighths & 7];
+  for (int octaves = eighths >> 3; octaves > 0; --octaves) result *= 2;
+  for (int octaves = eighths >> 3; octaves < 0; ++octaves) result /= 2;
+  return static_cast<float>(result);
+}
+
+// Reads a table.
+class PriorReader {
+ public:
+  explicit PriorReader(std::span<const std::int8_t> table) : next_(table.data()) {}
+
+  void logarithm(float& value) { value = power_of_two(*next_++); }
+  void weight(float& value) { value = static_cast<float>(*next_++) / kPriorsPerWeight; }
+  void bit(CountedBit& bit) {
+    const auto prior = static_cast<std::uint8_t>(*next_++);
+    bit = {squash((prior >> 2) * kPriorStep - kMaxStretch + kPriorStep / 2 - 1), kPriorCounts[prior & 3]};
+  }
+  // Rows share their priors, so that those do not know one sensor's rows.
+  void bits_by_row(CountedBit* bits, std::size_t rows, std::size_t per_row) {
+    for (std::size_t i = 0; i < per_row; ++i) bit(bits[i]);
+    for (std::size_t i = per_row; i < rows * per_row; ++i) bits[i] = bits[i - per_row];
+  }
+
+ private:
+  const std::int8_t* next_;
+};
+
+}  // namespace
+
+BandState state_from_priors(const CodingKind& kind, float step_m, const Band& band) {
+  BandState state{HitMaskState(static_cast<std::size_t>(band.rows)), {}};
+  PriorReader mask(hit_mask_priors(kind.predicted));
+  visit_hit_mask_state(state.mask, mask);
+  PriorReader ranges(range_priors(kind, prior_set(step_m)));
+  visit_range_state(state.ranges, experts_of(kind), ranges);
+  for (MixtureState::PerClass& at : state.ranges.mixture.classes) {
+    float total = 0;
+    for (const float weight : at.weight) total += weight;
+    at.per_total_weight = 1 / total;
+  }
+  return state;
+}
+
+}  // namespace pointreel

@@ -1,0 +1,69 @@
+// What surrounds a cell, as far as the coding of its bin looks: the steps coded at its neighbours.
+
+#if defined(POINTREEL_PREDICT_STEP_CONTEXT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef POINTREEL_PREDICT_STEP_CONTEXT_INL_H_
+#undef POINTREEL_PREDICT_STEP_CONTEXT_INL_H_
+#else
+#define POINTREEL_PREDICT_STEP_CONTEXT_INL_H_
+#endif
+
+#include <algorithm>
+#include <cstdint>
+
+#include "predict/neighbourhood-inl.h"
+#include "predict/range_state.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pointreel {
+namespace HWY_NAMESPACE {
+
+inline constexpr std::int32_t kMostContextSteps = 2;
+
+// Indices of adaptive models, for one cell.
+struct StepContext {
+  std::size_t signs;         // of the steps left, above and above right
+  std::size_t activity;      // 0 to 15: the sizes of the steps around; the nearest two count twice
+  std::size_t availability;  // of returns left and above
+  std::size_t row;
+  std::size_t error;  // 0 to 15: the blend's recent error
+};
+
+// Of eight cells. `steps`: what was coded, clipped to +-kMostContextSteps; 0 where there is no return.
+class StepContexts {
+ public:
+  StepContexts() = default;
+  HWY_INLINE StepContexts(const SkewedPlane<std::int32_t>& steps, const Neighbourhood& cells, int step) {
+    const auto at = [&](int columns_right, int rows_down)
+                        HWY_ATTR { return load_ints<8>(steps.at(step, columns_right, rows_down)); };
+    const Int8 left = at(-1, 0), left2 = at(-2, 0);
+    const Int8 above = at(0, -1), above_left = at(-1, -1), above_right = at(1, -1);
+    constexpr std::int32_t kMiddle = (kMostContextSteps * 5 + kMostContextSteps) * 5 + kMostContextSteps;
+    store(times5(times5(left) + above) + above_right + all_ints<8>(kMiddle), signs_);
+    const Int8 near = absolute(left) + absolute(above);
+    const Int8 around = near + near + absolute(above_right) + absolute(left2) + absolute(above_left);
+    store(smaller(around, all_ints<8>(static_cast<std::int32_t>(StepModels::kActivities) - 1)), activity_);
+    const Int8 one = all_ints<8>(1);
+    const Int8 has_left = where(as_int_mask(all<8>(kSmallestRangeM) <= cells.range_m(-1)), one);
+    const Int8 has_above = where(as_int_mask(all<8>(kSmallestRangeM) <= cells.range_m(0, -1)), one);
+    store(has_left + has_above + has_above, availability_);
+  }
+
+  HWY_INLINE StepContext of(std::size_t cell, int row, std::int32_t error_class) const {
+    constexpr auto kLastError = static_cast<std::int32_t>(StepModels::kErrors) - 1;
+    return {static_cast<std::size_t>(signs_[cell]), static_cast<std::size_t>(activity_[cell]),
+            static_cast<std::size_t>(availability_[cell]),
+            std::min(static_cast<std::size_t>(row), StepModels::kRows - 1),
+            static_cast<std::size_t>(std::clamp(error_class - 2, 0, kLastError))};
+  }
+
+ private:
+  static HWY_INLINE Int8 times5(const Int8& a) { return shifted_left<2>(a) + a; }
+
+  alignas(32) std::int32_t signs_[8], activity_[8], availability_[8];
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace pointreel
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target
