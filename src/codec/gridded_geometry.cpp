@@ -11,6 +11,7 @@
 #include "codec/sections.h"
 #include "predict/band_coding.h"
 #include "scatter/stray_list.h"
+#include "sensor/burst_sort.h"
 #include "sensor/order_moves.h"
 #include "sensor/point_order.h"
 #include "sensor/sensor_coding.h"
@@ -85,6 +86,17 @@ CodedGeometry merged(const CodingGrid& coding, std::span<const std::uint32_t> ce
   return geometry;
 }
 
+FiringPlaces firing_places(const SensorModel& model, const SweepGrid& grid,
+                           std::span<const std::uint32_t> cells, const CodedGeometry& geometry) {
+  FiringPlaces places{{}, std::max(1, static_cast<std::int32_t>(model.row_count()))};
+  const auto of_cells = firing_places_of(model, grid, cells);
+  places.of_point.reserve(geometry.cell_of_point.size());
+  std::size_t next_cell = 0;
+  for (const std::int32_t cell : geometry.cell_of_point)
+    places.of_point.push_back(cell < 0 ? -1 : of_cells[next_cell++]);
+  return places;
+}
+
 void put_quantiser(ByteWriter& writer, const RangeQuantiser& quantiser) {
   writer.put(quantiser.step_m);
   writer.put(static_cast<std::uint8_t>(quantiser.on_lattice() ? 1 : 0));
@@ -106,9 +118,10 @@ Result<RangeQuantiser> get_quantiser(ByteReader& reader, const SensorModel& mode
 }  // namespace
 
 EncodedGeometry encode_gridded(const SensorModel& model, const PointCloud& cloud, GriddedSweep sweep,
-                               double max_error_m, int threads, ByteWriter& writer,
-                               FrameStatistics& statistics) {
+                               std::span<const std::uint32_t> bursts, double max_error_m, int threads,
+                               ByteWriter& writer, FrameStatistics& statistics) {
   drop_unreachable(cloud, max_error_m, sweep);
+  sweep.grid.order.in_bursts = !bursts.empty() && sweep.grid.order.kind != OrderKind::none;
   const auto grid_bytes = encode_sweep_grid(model, sweep.grid);
   put_section(writer, grid_bytes);
   const RangeQuantiser quantiser = choose_quantiser(model, sweep, max_error_m);
@@ -188,6 +201,12 @@ EncodedGeometry encode_gridded(const SensorModel& model, const PointCloud& cloud
   statistics.stray_points += static_cast<std::uint32_t>(strays.size());
   encoded.geometry = merged(coding, cells, decoded.range_m, stray_indices);
   encoded.geometry.order_kept = order_kept;
+  if (sweep.grid.order.in_bursts) {
+    const auto burst_bytes = encode_bursts(bursts, firing_places(model, sweep.grid, cells, encoded.geometry));
+    put_section(writer, burst_bytes);
+    statistics.order_bits += bits_of(burst_bytes.size());
+    encoded.geometry.bursts.assign(bursts.begin(), bursts.end());
+  }
   return encoded;
 }
 
@@ -253,6 +272,11 @@ Result<DecodedGeometry> decode_gridded(const SensorModel& model, std::size_t poi
   for (const Stray& stray : strays) stray_indices.push_back(stray.index);
   result.geometry = merged(coding, cells, decoded.range_m, stray_indices);
   result.geometry.order_kept = grid->order.kind != OrderKind::none;
+  if (grid->order.in_bursts) {
+    auto bursts = decode_bursts(firing_places(model, *grid, cells, result.geometry), get_section(reader));
+    if (!bursts) return bursts.error();
+    result.geometry.bursts = *std::move(bursts);
+  }
   result.positions.reserve(points_out);
   std::size_t next_cell = 0, next_stray = 0;
   for (std::size_t i = 0; i < points_out; ++i) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/bytes.h"
@@ -20,6 +21,7 @@ struct CodedGeometry {
   std::vector<std::int32_t> cell_of_point;  // in the image; -1: off the grid
   std::vector<float> range_m;               // decoded, along the ray; 0 off the grid
   bool order_kept = true;
+  std::vector<std::uint32_t> bursts;  // sizes, where the output order has yet to be sorted by them
 };
 
 struct EncodedGeometry {
@@ -27,10 +29,11 @@ struct EncodedGeometry {
   std::vector<std::uint32_t> output_order;  // index in the input of each output point
 };
 
-// All points of `cloud` must be finite. `sweep`: its projection. Appends to `writer`.
+// All points of `cloud` must be finite. `sweep`: its projection. `bursts`: those of the sort that was undone,
+// if one was (sensor/burst_sort.h). Appends to `writer`.
 EncodedGeometry encode_gridded(const SensorModel& model, const PointCloud& cloud, GriddedSweep sweep,
-                               double max_error_m, int threads, ByteWriter& writer,
-                               FrameStatistics& statistics);
+                               std::span<const std::uint32_t> bursts, double max_error_m, int threads,
+                               ByteWriter& writer, FrameStatistics& statistics);
 
 struct DecodedGeometry {
   CodedGeometry geometry;

@@ -12,6 +12,7 @@
 #include "codec/sections.h"
 #include "codec/wire.h"
 #include "scatter/scattered_points.h"
+#include "sensor/burst_sort.h"
 #include "sensor/sensor_coding.h"
 
 namespace pointreel {
@@ -74,6 +75,7 @@ class MixtureDecoder final : public Decoder::Implementation {
     sweep.frame = packet.frame;
     sweep.cloud.positions = std::move(geometry->positions);
     sweep.cloud.fields = *std::move(fields);
+    if (!geometry->geometry.bursts.empty()) redo_sort(geometry->geometry.bursts, sweep.cloud);
     sweep.order_kept = geometry->geometry.order_kept;
     sweep.field_bytes = field_bytes;
     return sweep;

@@ -12,6 +12,7 @@
 #include "codec/sections.h"
 #include "codec/wire.h"
 #include "scatter/scattered_points.h"
+#include "sensor/burst_sort.h"
 #include "sensor/projection.h"
 #include "sensor/sensor_coding.h"
 #include "sensor/sensor_estimator.h"
@@ -60,7 +61,8 @@ class MixtureEncoder final : public Encoder::Implementation {
     Packet packet;
     packet.frame = next_frame_;
     packet.points_in = static_cast<std::uint32_t>(sweep.size());
-    const PointCloud cloud = finite_part(std::move(sweep));
+    PointCloud cloud = finite_part(std::move(sweep));
+    const auto bursts = undo_sort(cloud);
     packet.points_out = static_cast<std::uint32_t>(cloud.size());
     packet.non_finite = packet.points_in - packet.points_out;
 
@@ -71,8 +73,8 @@ class MixtureEncoder final : public Encoder::Implementation {
         put_model(writer, packet.statistics);
       else
         writer.put(SweepCoding::gridded);
-      encoded = encode_gridded(*model_, cloud, *std::move(gridded), header_.max_error_m, threads_, writer,
-                               packet.statistics);
+      encoded = encode_gridded(*model_, cloud, *std::move(gridded), bursts, header_.max_error_m, threads_,
+                               writer, packet.statistics);
       ++model_age_;
     } else {
       encoded = encode_scattered_sweep(cloud, writer, packet.statistics);

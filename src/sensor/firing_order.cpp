@@ -131,34 +131,4 @@ std::vector<double> row_leads_rad(const std::vector<double>& azimuth_rad,
   return leads;
 }
 
-std::vector<std::uint16_t> row_sequence_of(const std::vector<std::int16_t>& rows,
-                                           const std::vector<std::int32_t>& column_of_point,
-                                           std::size_t row_count) {
-  // Mean rank within the columns, which is off by what is missing before a row: full columns count for more.
-  std::vector<std::vector<std::int16_t>> columns;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i] < 0 || column_of_point[i] < 0) continue;
-    const auto column = static_cast<std::size_t>(column_of_point[i]);
-    if (column >= columns.size()) columns.resize(column + 1);
-    columns[column].push_back(rows[i]);
-  }
-  std::vector<double> rank(row_count, 0);
-  std::vector<double> weight(row_count, 0);
-  for (const auto& column : columns) {
-    const double full = static_cast<double>(column.size()) / static_cast<double>(row_count);
-    const double w = std::pow(full, 8) + 1e-12;
-    for (std::size_t k = 0; k < column.size(); ++k) {
-      const auto r = static_cast<std::size_t>(column[k]);
-      rank[r] += w * (static_cast<double>(k) + 0.5) / static_cast<double>(column.size());
-      weight[r] += w;
-    }
-  }
-  for (std::size_t r = 0; r < row_count; ++r) rank[r] = weight[r] > 0 ? rank[r] / weight[r] : 0;
-  std::vector<std::uint16_t> sequence(row_count);
-  std::iota(sequence.begin(), sequence.end(), std::uint16_t{0});
-  std::stable_sort(sequence.begin(), sequence.end(),
-                   [&](std::uint16_t a, std::uint16_t b) { return rank[a] < rank[b]; });
-  return sequence;
-}
-
 }  // namespace pointreel

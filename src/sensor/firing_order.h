@@ -22,9 +22,4 @@ std::optional<FiringOrder> find_firing_order(const std::vector<double>& azimuth_
 std::vector<double> row_leads_rad(const std::vector<double>& azimuth_rad,
                                   const std::vector<std::int16_t>& rows, std::size_t row_count);
 
-// Rows in the order in which the points of a column come; column_of_point < 0: none.
-std::vector<std::uint16_t> row_sequence_of(const std::vector<std::int16_t>& rows,
-                                           const std::vector<std::int32_t>& column_of_point,
-                                           std::size_t row_count);
-
 }  // namespace pointreel

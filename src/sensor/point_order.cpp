@@ -75,9 +75,9 @@ std::uint32_t find_seam(const SensorModel& model, const SweepGrid& grid, const s
   const bool descending = grid.order.descending;
   const auto azimuth_of = [&](std::uint32_t cell) {
     const RowModel& row = model.rows[cell / columns];
-    const std::uint32_t of_column =
-        azimuth_of_tick(grid.column_tick[cell % columns], grid.ticks_per_turn) + azimuth_of_row(row);
-    if (grid.order.kind == OrderKind::row_major) return of_column;
+    const std::uint32_t of_column = azimuth_of_tick(grid.column_tick[cell % columns], grid.ticks_per_turn) +
+                                    row_turn(grid.order.kind, row);
+    if (grid.order.kind != OrderKind::row_azimuth) return of_column;
     return of_column + static_cast<std::uint32_t>(turned_by_side(static_cast<float>(row.side_offset_m),
                                                                  range_m[cell] * cosine_of(row)));
   };
@@ -123,10 +123,13 @@ std::vector<std::uint32_t> cells_in_order(std::span<const std::uint8_t> occupied
   std::vector<std::uint32_t> cells;
   cells.reserve(occupied.size());
   if (grid.order.kind == OrderKind::column_major) {
-    for (std::uint32_t i = 0; i < columns; ++i) {
-      const std::uint32_t column = grid.order.descending ? columns - 1 - i : i;
+    const auto latest = std::max_element(model.row_delay.begin(), model.row_delay.end());
+    const std::uint32_t slots = columns + (latest == model.row_delay.end() ? 0 : *latest);
+    for (std::uint32_t slot = 0; slot < slots; ++slot) {
       for (const std::uint16_t row : model.row_sequence) {
-        const std::uint32_t cell = row * columns + column;
+        const std::uint32_t fired = slot - (model.row_delay.empty() ? 0 : model.row_delay[row]);
+        if (fired >= columns) continue;  // or before the first
+        const std::uint32_t cell = row * columns + (grid.order.descending ? columns - 1 - fired : fired);
         if (occupied[cell] != 0) cells.push_back(cell);
       }
     }
@@ -139,6 +142,24 @@ std::vector<std::uint32_t> cells_in_order(std::span<const std::uint8_t> occupied
     for (const std::uint16_t row : model.row_sequence) walk.append(row, cells);
   }
   return cells;
+}
+
+std::vector<std::int32_t> firing_places_of(const SensorModel& model, const SweepGrid& grid,
+                                           std::span<const std::uint32_t> cells) {
+  std::vector<std::int32_t> places(cells.size(), -1);
+  if (grid.order.kind != OrderKind::column_major) return places;
+  const std::size_t rows = model.rows.size();
+  const std::size_t columns = grid.column_count();
+  std::vector<std::size_t> rank(rows);
+  for (std::size_t k = 0; k < rows; ++k) rank[model.row_sequence[k]] = k;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const std::size_t row = cells[i] / columns;
+    const std::size_t column = cells[i] % columns;
+    const std::size_t fired = grid.order.descending ? columns - 1 - column : column;
+    const std::size_t slot = fired + (model.row_delay.empty() ? 0 : model.row_delay[row]);
+    places[i] = static_cast<std::int32_t>(slot * rows + rank[row]);
+  }
+  return places;
 }
 
 std::vector<std::uint32_t> cells_of_points(const GriddedSweep& sweep) {
@@ -165,7 +186,7 @@ PointOrder find_order(const SensorModel& model, const GriddedSweep& sweep,
   } else {
     summary = summarise(walk, static_cast<std::uint32_t>(columns), model.rows.size());
     if (summary.same_row * 2 < walk.size()) return {};
-    kinds = {OrderKind::row_azimuth, OrderKind::row_major};
+    kinds = {OrderKind::row_azimuth, OrderKind::row_major, OrderKind::row_column};
     grid.order.descending = summary.falling * 2 > summary.same_row;
   }
   PointOrder best;

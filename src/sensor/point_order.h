@@ -18,6 +18,11 @@ std::vector<std::uint32_t> cells_in_order(std::span<const std::uint8_t> occupied
                                           std::span<const float> range_m, const SensorModel& model,
                                           const SweepGrid& grid);
 
+// When the cells of a column-major cloud were measured: slot * rows + place in the row sequence. -1 where the
+// order is another one.
+std::vector<std::int32_t> firing_places_of(const SensorModel& model, const SweepGrid& grid,
+                                           std::span<const std::uint32_t> cells);
+
 // The cells of the points in the order of the cloud: what find_moves() compares with cells_in_order().
 std::vector<std::uint32_t> cells_of_points(const GriddedSweep& sweep);
 

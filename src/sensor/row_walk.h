@@ -26,6 +26,11 @@ inline std::uint32_t azimuth_of_row(const RowModel& row) {
   return static_cast<std::uint32_t>(static_cast<std::int64_t>(part + (part < 0 ? -0.5 : 0.5)));
 }
 
+// What the azimuth that orders a row is, more than that of its columns.
+inline std::uint32_t row_turn(OrderKind kind, const RowModel& row) {
+  return kind == OrderKind::row_column ? 0 : azimuth_of_row(row);
+}
+
 // How far the side offset turns a point at this range, if there is one; any range will do.
 inline std::int32_t turned_by_side(float side_m, float rho_m) {
   constexpr auto kPerRad = static_cast<float>(kWholeTurn / (2 * kPi));
@@ -57,7 +62,7 @@ class RowWalk {
     const RowModel& laser = model_.rows[row];
     const std::size_t columns = azimuth_.size();
     const std::size_t first_cell = row * columns;
-    const std::uint32_t turn = azimuth_of_row(laser) - seam_;
+    const std::uint32_t turn = row_turn(order_.kind, laser) - seam_;
     if (order_.kind == OrderKind::row_azimuth) find_turns(laser, range_m_.subspan(first_cell, columns));
     std::size_t taken = 0;
     const auto take = [&](std::size_t c) {

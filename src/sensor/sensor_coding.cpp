@@ -51,7 +51,7 @@ std::int32_t in_steps(double value, double step) {
 }
 
 struct ModelModels {
-  SizedInteger slope, offset, azimuth, side, sequence, ring, phase;
+  SizedInteger slope, offset, azimuth, side, sequence, delay, ring, phase;
 };
 
 // One field of all rows. `row(r)` is a reference to it; the value two rows up predicts where lasers
@@ -86,10 +86,12 @@ bool code_model(Coder& coder, SensorModel& model) {
   if (model.ticks_per_turn > kMaxTicksPerTurn) return false;
   model.motion_compensated = code_bits(coder, model.motion_compensated ? 1 : 0, 1) != 0;
   const bool has_rings = code_bits(coder, model.ring_of_row.empty() ? 0 : 1, 1) != 0;
+  const bool has_delays = code_bits(coder, model.row_delay.empty() ? 0 : 1, 1) != 0;
   const std::uint32_t range_step_um =
       code_bits(coder, static_cast<std::uint32_t>(in_steps(model.range_step_m, 1e-6)), 16);
   model.range_step_m = range_step_um * 1e-6;
   if (has_rings) model.ring_of_row.resize(rows);
+  if (has_delays) model.row_delay.resize(rows);
   if (range_step_um != 0) model.range_phase.resize(rows);
 
   ModelModels models;
@@ -113,6 +115,12 @@ bool code_model(Coder& coder, SensorModel& model) {
       return false;
     seen[static_cast<std::size_t>(place)] = 1;
     row = static_cast<std::uint16_t>(place);
+  }
+  std::int32_t delay = 0;
+  for (std::uint16_t& columns : model.row_delay) {
+    delay += models.delay.code(coder, columns - delay);
+    if (delay < 0 || delay > static_cast<std::int32_t>(kMaxRowDelay)) return false;
+    columns = static_cast<std::uint16_t>(delay);
   }
   std::int64_t ring = 0;
   for (std::int32_t& value : model.ring_of_row) {
@@ -192,9 +200,12 @@ bool code_grid(Coder& coder, const SensorModel& model, SweepGrid& grid) {
   if (grid.ticks_per_turn == 0 || grid.ticks_per_turn > kMaxTicksPerTurn) return false;
   grid.column_tick.resize(columns);
   if (!code_ticks(coder, grid.ticks_per_turn, grid.column_tick)) return false;
-  grid.order.kind = static_cast<OrderKind>(code_bits(coder, static_cast<std::uint32_t>(grid.order.kind), 2));
+  const std::uint32_t kind = code_bits(coder, static_cast<std::uint32_t>(grid.order.kind), 3);
+  if (kind > static_cast<std::uint32_t>(OrderKind::row_column)) return false;
+  grid.order.kind = static_cast<OrderKind>(kind);
   grid.order.descending = code_bits(coder, grid.order.descending ? 1 : 0, 1) != 0;
-  if (grid.order.kind == OrderKind::row_major || grid.order.kind == OrderKind::row_azimuth) {
+  grid.order.in_bursts = code_bits(coder, grid.order.in_bursts ? 1 : 0, 1) != 0;
+  if (is_by_rows(grid.order.kind)) {
     const bool seam = code_bits(coder, grid.order.seam_tick != 0 ? 1 : 0, 1) != 0;
     if (seam) grid.order.seam_tick = code_bits(coder, grid.order.seam_tick, 23);
     if (grid.order.seam_tick >= grid.ticks_per_turn) return false;

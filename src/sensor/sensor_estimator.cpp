@@ -12,6 +12,7 @@
 #include "sensor/columns.h"
 #include "sensor/diagnosis.h"
 #include "sensor/firing_order.h"
+#include "sensor/firing_sequence.h"
 #include "sensor/polar_points.h"
 #include "sensor/row_assignment.h"
 #include "sensor/row_evidence.h"
@@ -113,11 +114,11 @@ class ModelFit {
     });
     std::uint32_t most_ticks = model_.ticks_per_turn / 8;  // rows look at most 45 deg ahead
     if (in_firing_order) {
-      constexpr std::uint32_t kLeadErrorTicks = 6;
+      constexpr std::uint32_t kMostStaggerTicks = 24;  // more, and the azimuths fit no column any more
       const auto leads = row_leads_rad(azimuths(), row_of_point_, rows);
       for (std::size_t r = 0; r < rows; ++r)
         model_.rows[r].azimuth_rad += std::nearbyint((leads[r] - leads[0]) / tick_rad) * tick_rad;
-      most_ticks = kLeadErrorTicks;
+      most_ticks = kMostStaggerTicks;
     }
     const auto azimuth = azimuths();
     std::vector<std::vector<std::uint32_t>> ticks(rows);
@@ -208,8 +209,14 @@ class ModelFit {
 
   void find_row_sequence(bool in_firing_order) {
     if (in_firing_order) {
-      const SweepColumns columns = columns_now();
-      model_.row_sequence = row_sequence_of(row_of_point_, columns.column_of_point, model_.rows.size());
+      SweepColumns columns = columns_now();
+      if (const auto firing = find_firing_order(azimuths(), row_of_point_); firing && firing->descending) {
+        const auto last = static_cast<std::int32_t>(columns.tick.size()) - 1;
+        for (std::int32_t& column : columns.column_of_point) column = column < 0 ? -1 : last - column;
+      }
+      auto sequence = find_firing_sequence(row_of_point_, columns.column_of_point, model_.rows.size());
+      model_.row_sequence = std::move(sequence.rows);
+      model_.row_delay = std::move(sequence.delay);
       return;
     }
     // By where the middle of each row stands in the cloud.

@@ -29,6 +29,8 @@ struct SensorModel {
   // Rows in the order in which the points of one column (column-major clouds) or of the whole sweep
   // (row-major clouds) come. A permutation of 0 .. rows - 1.
   std::vector<std::uint16_t> row_sequence;
+  // Column-major clouds: by how many columns each row's points come late, 0 to kMaxRowDelay; empty: by none.
+  std::vector<std::uint16_t> row_delay;
   // What the input's ring field says for each row; empty when there was none.
   std::vector<std::int32_t> ring_of_row;
   // The sensor measures range along the ray as (n + phase) * step; step 0 when no lattice was found.
@@ -43,6 +45,7 @@ inline constexpr std::size_t kMaxRows = 512;
 inline constexpr std::size_t kMaxColumns = 65536;
 inline constexpr std::size_t kMaxCells = std::size_t{1} << 24;
 inline constexpr std::uint32_t kMaxTicksPerTurn = 1u << 22;
+inline constexpr std::uint32_t kMaxRowDelay = 1023;
 
 // Half a step moves a point by at most 0.06 mm, 80 m away.
 inline constexpr double kSlopeStep = 1.0 / (1 << 20);

@@ -28,13 +28,20 @@ enum class OrderKind : std::uint8_t {
   none,          // the order of the points is not kept
   row_major,     // rows as in the model's row_sequence, each once around by column, from the seam
   row_azimuth,   // the same by the points' own azimuth: where side offsets cross rays, not the same (KITTI)
-  column_major,  // columns from first to last, in each the rows as in row_sequence
+  column_major,  // columns from first to last, in each the rows as in row_sequence, late by their row_delay
+  row_column,    // as row_major, but by the column's azimuth alone: all rows begin at one firing
 };
+
+inline bool is_by_rows(OrderKind kind) {
+  return kind != OrderKind::none && kind != OrderKind::column_major;
+}
 
 struct PointOrder {
   OrderKind kind = OrderKind::none;
   bool descending = false;      // towards smaller azimuths (column_major: from the last column to the first)
   std::uint32_t seam_tick = 0;  // rows: azimuth at which each begins, in ticks
+  // After that, all points were sorted by a time that whole bursts of them share (burst_sort.h).
+  bool in_bursts = false;
   friend bool operator==(const PointOrder&, const PointOrder&) = default;
 };
 

@@ -16,6 +16,7 @@ SensorModel small_model() {
         rounded({0.1 - 0.05 * r, 0.2 - 0.01 * r, 0.03 * r - 0.1, r % 2 == 0 ? 0.026 : -0.026}));
   model.ticks_per_turn = 4000;
   model.row_sequence = {7, 6, 5, 4, 0, 1, 2, 3};
+  model.row_delay = {0, 0, 3, 1023, 2, 0, 0, 1};
   model.ring_of_row = {10, 11, 12, 13, 3, 2, 1, 0};
   model.range_step_m = 0.002;
   model.range_phase = {0, 0.5, 0.25, 0.75, 0, 0, 0.984375, 0.5};

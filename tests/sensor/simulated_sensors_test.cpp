@@ -14,7 +14,16 @@
 namespace pointreel {
 namespace {
 
-enum class Order { plain, half_turn, shuffled, sparse, columns, columns_back };
+enum class Order {
+  plain,
+  half_turn,
+  shuffled,
+  sparse,
+  columns,
+  columns_back,
+  columns_staggered,  // each row some columns late
+  rows_from_firing,   // all rows begin at one firing, so at azimuths of their own
+};
 
 struct Scene {
   SensorKind sensor;
@@ -56,7 +65,7 @@ class SimulatedSensors : public testing::TestWithParam<Scene> {
     const std::size_t rows = estimator.model()->rows.size();
     std::vector<std::size_t> points;
     std::vector<std::uint16_t> rings(scene.rings ? cloud.size() : 0);
-    std::vector<std::size_t> key(cloud.size());
+    std::vector<std::size_t> key(cloud.size()), staggered(cloud.size()), by_row(cloud.size());
     for (std::size_t i = 0; i < cloud.size(); ++i) {
       if (grid.cell_of_point[i] < 0) continue;
       const std::size_t row = static_cast<std::size_t>(grid.cell_of_point[i]) / columns;
@@ -64,6 +73,8 @@ class SimulatedSensors : public testing::TestWithParam<Scene> {
       points.push_back(i);
       if (scene.rings) rings[i] = static_cast<std::uint16_t>(rows - 1 - row);
       key[i] = column * rows + row * 7 % rows;  // lasers do not fire top to bottom
+      staggered[i] = (column + row * 5 % 6) * rows + row * 7 % rows;
+      by_row[i] = row * columns + column;
     }
     std::mt19937 random(5);
     const auto by_column = [&](std::size_t a, std::size_t b) { return key[a] < key[b]; };
@@ -82,6 +93,14 @@ class SimulatedSensors : public testing::TestWithParam<Scene> {
         break;
       case Order::columns_back:
         std::sort(points.rbegin(), points.rend(), by_column);
+        break;
+      case Order::columns_staggered:
+        std::sort(points.begin(), points.end(),
+                  [&](std::size_t a, std::size_t b) { return staggered[a] < staggered[b]; });
+        break;
+      case Order::rows_from_firing:
+        std::sort(points.begin(), points.end(),
+                  [&](std::size_t a, std::size_t b) { return by_row[a] < by_row[b]; });
         break;
     }
     PointCloud taken = subset(cloud, points, rings);
@@ -117,7 +136,8 @@ TEST_P(SimulatedSensors, AreRecovered) {
   const SensorDiagnosis diagnosis = diagnose(model, std::span(&grid, 1));
   EXPECT_LT(diagnosis.deviation.p95_m, 1e-3);
   EXPECT_GT(count_of(diagnosis, StrayReason::none) * 1000, cloud.size() * 998);
-  const bool columns = scene.order == Order::columns || scene.order == Order::columns_back;
+  const bool columns = scene.order == Order::columns || scene.order == Order::columns_back ||
+                       scene.order == Order::columns_staggered;
   if (scene.order == Order::shuffled) {
     EXPECT_EQ(grid.grid.order.kind, OrderKind::none);
   } else if (columns) {
@@ -135,12 +155,16 @@ INSTANTIATE_TEST_SUITE_P(All, SimulatedSensors,
                                          Scene{SensorKind::hdl_64e, Order::shuffled, false},
                                          Scene{SensorKind::hdl_64e, Order::sparse, false},
                                          Scene{SensorKind::hdl_64e, Order::columns, true},
+                                         Scene{SensorKind::hdl_64e, Order::columns_staggered, true},
+                                         Scene{SensorKind::hdl_64e, Order::columns_staggered, false},
+                                         Scene{SensorKind::hdl_64e, Order::rows_from_firing, true},
                                          Scene{SensorKind::vlp_16, Order::plain, true},
                                          Scene{SensorKind::vlp_16, Order::half_turn, false},
                                          Scene{SensorKind::vlp_16, Order::shuffled, false},
                                          Scene{SensorKind::vlp_16, Order::sparse, false},
                                          Scene{SensorKind::vlp_16, Order::columns, false},
-                                         Scene{SensorKind::vlp_16, Order::columns_back, true}));
+                                         Scene{SensorKind::vlp_16, Order::columns_back, true},
+                                         Scene{SensorKind::vlp_16, Order::columns_staggered, false}));
 
 TEST(SimulatedSensors, OneModelServesAllSweepsOnAnyNumberOfThreads) {
   const auto sweeps = simulated_drive(3, SensorKind::hdl_64e);

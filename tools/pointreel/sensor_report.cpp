@@ -15,6 +15,7 @@
 #include "pointreel/console.h"
 #include "pointreel/exit_code.h"
 #include "pointreel/io.h"
+#include "sensor/burst_sort.h"
 #include "sensor/diagnosis.h"
 #include "sensor/projection.h"
 #include "sensor/sensor_estimator.h"
@@ -43,6 +44,7 @@ Result<SensorFindings> find_sensor(const std::vector<std::filesystem::path>& pat
   for (std::size_t i = 0; i < findings.sweeps; ++i) {
     auto cloud = read_cloud(paths[i * paths.size() / findings.sweeps]);
     if (!cloud) return cloud.error();
+    undo_sort(*cloud);  // as the encoder does
     estimator.add(*cloud);
     findings.points += cloud->size();
     clouds.push_back(*std::move(cloud));
