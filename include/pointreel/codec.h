@@ -68,7 +68,9 @@ struct FieldSelection {
 struct MixtureOptions {
   double max_error_m =
       0.02;        // distance in space of each point to its own decoded float32 position; 0.0005 to 1
-  int group = 10;  // sweeps per group, 1 to 255: the first holds the sensor model for the others
+  int group = 10;  // sweeps per group, 1 to 255: the first decodes by itself and holds the sensor model
+  Effort effort = Effort::balanced;
+  bool temporal = true;  // sweeps are predicted from the one before, within their group
   FieldSelection fields;
 };
 
@@ -84,6 +86,7 @@ struct StreamHeader {
   Method method = Method::mixture;
   double max_error_m = 0.02;  // `mixture` only
   int group = 10;             // `mixture` only
+  Effort effort = Effort::balanced;  // `mixture` only
   PlanesOptions planes;       // `planes` only, with residual_step_m resolved
 
   // `mixture`: largest distance of a point to its own decoded position. `planes`: largest range error of a

@@ -9,7 +9,6 @@
 #include "codec/corrections.h"
 #include "codec/error_budget.h"
 #include "codec/sections.h"
-#include "predict/band_coding.h"
 #include "scatter/stray_list.h"
 #include "sensor/burst_sort.h"
 #include "sensor/order_moves.h"
@@ -117,9 +116,10 @@ Result<RangeQuantiser> get_quantiser(ByteReader& reader, const SensorModel& mode
 
 }  // namespace
 
-EncodedGeometry encode_gridded(const SensorModel& model, const PointCloud& cloud, GriddedSweep sweep,
-                               std::span<const std::uint32_t> bursts, double max_error_m, int threads,
+EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud& cloud, GriddedSweep sweep,
+                               std::span<const std::uint32_t> bursts, const Prediction* prediction,
                                ByteWriter& writer, FrameStatistics& statistics) {
+  const auto& [model, max_error_m, effort, threads] = setting;
   drop_unreachable(cloud, max_error_m, sweep);
   sweep.grid.order.in_bursts = !bursts.empty() && sweep.grid.order.kind != OrderKind::none;
   const auto grid_bytes = encode_sweep_grid(model, sweep.grid);
@@ -137,18 +137,7 @@ EncodedGeometry encode_gridded(const SensorModel& model, const PointCloud& cloud
     point_of_cell[cell] = static_cast<std::uint32_t>(i);
     image.range_m[coding.image_index(cell)] = sweep.range_m[i];
   }
-  const auto bands = bands_of(image.rows, image.columns);
-  std::vector<CodedBand> coded(bands.size());
-  parallel_for(bands.size(), threads, [&](std::size_t b) {
-    BandState state = BandState::from_priors(quantiser, bands[b]);
-    coded[b] = encode_band(quantiser, bands[b], image, state);
-  });
-  for (const CodedBand& band : coded) {
-    put_section(writer, band.mask);
-    put_section(writer, band.ranges);
-    statistics.occupancy_bits += bits_of(band.mask.size());
-    statistics.range_bits += bits_of(band.ranges.size());
-  }
+  encode_image({model, sweep.grid, quantiser, effort, threads}, prediction, image, writer, statistics);
 
   // The points as the decoder will have them, in its sequence.
   const DecodedCells decoded(coding, image, threads);
@@ -207,11 +196,13 @@ EncodedGeometry encode_gridded(const SensorModel& model, const PointCloud& cloud
     statistics.order_bits += bits_of(burst_bytes.size());
     encoded.geometry.bursts.assign(bursts.begin(), bursts.end());
   }
+  encoded.image = {std::move(sweep.grid), std::move(image)};
   return encoded;
 }
 
-Result<DecodedGeometry> decode_gridded(const SensorModel& model, std::size_t points_out, double max_error_m,
-                                       int threads, ByteReader& reader) {
+Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size_t points_out,
+                                       const ReferenceSweep* reference, ByteReader& reader) {
+  const auto& [model, max_error_m, effort, threads] = setting;
   const auto grid = decode_sweep_grid(model, get_section(reader));
   if (!grid) return grid.error();
   const auto quantiser = get_quantiser(reader, model);
@@ -220,21 +211,8 @@ Result<DecodedGeometry> decode_gridded(const SensorModel& model, std::size_t poi
   if (grid->column_count() == 0) return Error{ErrorCode::corrupt, "its grid has no columns"};
   const CodingGrid coding(model, *grid);
   GridImage image = coding.empty_image();
-  const auto bands = bands_of(image.rows, image.columns);
-  std::vector<std::span<const std::uint8_t>> masks(bands.size()), ranges(bands.size());
-  for (std::size_t b = 0; b < bands.size(); ++b) {
-    masks[b] = get_section(reader);
-    ranges[b] = get_section(reader);
-  }
-  if (!reader.ok()) return Error{ErrorCode::truncated, "it ends within its ranges"};
-  std::vector<Result<void>> results(bands.size());
-  parallel_for(bands.size(), threads, [&](std::size_t b) {
-    BandState state = BandState::from_priors(*quantiser, bands[b]);
-    results[b] = decode_band(*quantiser, bands[b], masks[b], ranges[b], image, state);
-  });
-  for (const auto& result : results) {
-    if (!result) return result.error();
-  }
+  const auto decoded_image = decode_image({model, *grid, *quantiser, effort, threads}, reference, reader, image);
+  if (!decoded_image) return decoded_image.error();
 
   const DecodedCells decoded(coding, image, threads);
   auto cells = cells_in_order(decoded.occupied, decoded.range_m, model, *grid);
@@ -283,6 +261,7 @@ Result<DecodedGeometry> decode_gridded(const SensorModel& model, std::size_t poi
     const bool stray = result.geometry.cell_of_point[i] < 0;
     result.positions.push_back(stray ? strays[next_stray++].position : positions[cells[next_cell++]]);
   }
+  result.image = {*grid, std::move(image)};
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/bytes.h"
+#include "codec/image_sections.h"
 #include "pointreel/codec.h"
 #include "pointreel/point_cloud.h"
 #include "sensor/sensor_model.h"
@@ -24,24 +25,41 @@ struct CodedGeometry {
   std::vector<std::uint32_t> bursts;  // sizes, where the output order has yet to be sorted by them
 };
 
+// The decoded ranges on their grid: what the next sweep can be predicted from.
+struct CodedImage {
+  SweepGrid grid;
+  GridImage image;  // empty for a sweep without a grid
+};
+
+// What both sides know of the sensor and the stream.
+struct GeometrySetting {
+  const SensorModel& model;
+  double max_error_m = 0.02;
+  Effort effort = Effort::balanced;
+  int threads = 1;
+};
+
 struct EncodedGeometry {
   CodedGeometry geometry;
+  CodedImage image;
   std::vector<std::uint32_t> output_order;  // index in the input of each output point
 };
 
 // All points of `cloud` must be finite. `sweep`: its projection. `bursts`: those of the sort that was undone,
-// if one was (sensor/burst_sort.h). Appends to `writer`.
-EncodedGeometry encode_gridded(const SensorModel& model, const PointCloud& cloud, GriddedSweep sweep,
-                               std::span<const std::uint32_t> bursts, double max_error_m, int threads,
+// if one was (sensor/burst_sort.h). `prediction`: nullptr for a frame by itself. Appends to `writer`.
+EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud& cloud, GriddedSweep sweep,
+                               std::span<const std::uint32_t> bursts, const Prediction* prediction,
                                ByteWriter& writer, FrameStatistics& statistics);
 
 struct DecodedGeometry {
   CodedGeometry geometry;
+  CodedImage image;
   std::vector<Point3f> positions;
 };
 
-// Error: truncated or corrupt; also when there are not `points_out` points.
-Result<DecodedGeometry> decode_gridded(const SensorModel& model, std::size_t points_out, double max_error_m,
-                                       int threads, ByteReader& reader);
+// `reference`: nullptr for a frame by itself. Error: truncated or corrupt; also when there are not `points_out`
+// points.
+Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size_t points_out,
+                                       const ReferenceSweep* reference, ByteReader& reader);
 
 }  // namespace pointreel

@@ -44,25 +44,30 @@ class MixtureDecoder final : public Decoder::Implementation {
     ByteReader reader(packet.payload);
     const auto coding = reader.get<SweepCoding>();
     if (!reader.ok()) return Error{ErrorCode::truncated, "its payload is empty"};
-    if (coding > SweepCoding::gridded_model)
+    if (coding > SweepCoding::predicted)
       return Error{ErrorCode::unsupported, "it is coded in an unknown way"};
-    if ((coding == SweepCoding::gridded) != (packet.kind == FrameKind::predicted)) {
+    const bool needs_frame = coding == SweepCoding::gridded || coding == SweepCoding::predicted;
+    if (needs_frame != (packet.kind == FrameKind::predicted)) {
       return Error{ErrorCode::corrupt, "its kind and its coding contradict each other"};
     }
-    if (packet.kind == FrameKind::key) model_frame_.reset();
+    if (packet.kind == FrameKind::key) {
+      model_frame_.reset();
+      reference_frame_.reset();
+    }
     if (coding == SweepCoding::gridded_model) {
       auto model = decode_sensor_model(get_section(reader));
       if (!model) return model.error();
       model_ = *std::move(model);
       model_frame_ = packet.frame;
-    } else if (coding == SweepCoding::gridded && model_frame_ != packet.reference_frame) {
+    } else if (needs_frame && (coding == SweepCoding::gridded ? model_frame_ : reference_frame_) != packet.reference_frame) {
       return Error{ErrorCode::corrupt, "its reference frame " + std::to_string(packet.reference_frame) +
                                            " was not decoded before it"};
     }
 
     auto geometry = coding == SweepCoding::scattered
                         ? decode_scattered_sweep(packet, reader)
-                        : decode_gridded(model_, packet.points_out, header_.max_error_m, threads_, reader);
+                        : decode_gridded({model_, header_.max_error_m, header_.effort, threads_}, packet.points_out,
+                                         coding == SweepCoding::predicted ? &reference_ : nullptr, reader);
     if (!geometry) return geometry.error();
     const std::size_t field_bytes = ByteReader(reader).rest().size();  // a copy: rest() takes them
     for (const Point3f& position : geometry->positions) {
@@ -71,6 +76,10 @@ class MixtureDecoder final : public Decoder::Implementation {
     auto fields = decode_fields(geometry->geometry, threads_, reader);
     if (!fields) return fields.error();
     if (!reader.rest().empty()) return Error{ErrorCode::corrupt, "bytes follow its fields"};
+    if (!geometry->image.image.range_m.empty()) {
+      reference_ = reference_from(model_, geometry->image.grid, geometry->image.image.range_m, threads_);
+      reference_frame_ = packet.frame;
+    }
     DecodedSweep sweep;
     sweep.frame = packet.frame;
     sweep.cloud.positions = std::move(geometry->positions);
@@ -100,6 +109,8 @@ class MixtureDecoder final : public Decoder::Implementation {
   int threads_;
   SensorModel model_;
   std::optional<std::uint32_t> model_frame_;  // the frame that brought it
+  ReferenceSweep reference_;                  // the last sweep on the grid
+  std::optional<std::uint32_t> reference_frame_;
 };
 
 }  // namespace

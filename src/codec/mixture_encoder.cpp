@@ -10,6 +10,7 @@
 #include "codec/method.h"
 #include "codec/mixture_payload.h"
 #include "codec/sections.h"
+#include "codec/sweep_alignment.h"
 #include "codec/wire.h"
 #include "scatter/scattered_points.h"
 #include "sensor/burst_sort.h"
@@ -39,16 +40,17 @@ PointCloud finite_part(PointCloud sweep) {
 
 class MixtureEncoder final : public Encoder::Implementation {
  public:
-  MixtureEncoder(const StreamHeader& header, FieldSelection fields, int threads)
+  MixtureEncoder(const StreamHeader& header, const MixtureOptions& options, int threads)
       : header_(header),
-        fields_(std::move(fields)),
+        fields_(options.fields),
         threads_(threads),
         grid_options_{std::max(kLeastDeviationM, 2 * header.max_error_m), header.max_error_m, threads},
-        estimator_(grid_options_) {}
+        estimator_(grid_options_),
+        temporal_(options.temporal) {}
 
   const StreamHeader& header() const override { return header_; }
 
-  Result<std::vector<Packet>> encode(PointCloud sweep, const std::optional<Pose>&) override {
+  Result<std::vector<Packet>> encode(PointCloud sweep, const std::optional<Pose>& T_world_sensor) override {
     if (sweep.size() > kMaxPointsPerSweep) {
       return Error{ErrorCode::resource_limit, "frame " + std::to_string(next_frame_) + " has " +
                                                   std::to_string(sweep.size()) + " points, more than 2^23"};
@@ -68,14 +70,21 @@ class MixtureEncoder final : public Encoder::Implementation {
 
     ByteWriter writer;
     EncodedGeometry encoded;
+    std::uint32_t reference_frame = packet.frame;
     if (auto gridded = on_grid(cloud)) {
-      if (starts_group())
+      std::optional<Pose> T_ref_cur;
+      if (starts_group()) {
         put_model(writer, packet.statistics);
-      else
-        writer.put(SweepCoding::gridded);
-      encoded = encode_gridded(*model_, cloud, *std::move(gridded), bursts, header_.max_error_m, threads_,
-                               writer, packet.statistics);
+      } else {
+        if (temporal_) T_ref_cur = alignment_.align(*model_, *gridded, T_world_sensor);
+        writer.put(T_ref_cur ? SweepCoding::predicted : SweepCoding::gridded);
+      }
+      reference_frame = T_ref_cur ? packet.frame - 1 : *model_frame_;
+      const auto prediction = T_ref_cur ? std::optional(Prediction{reference_, *T_ref_cur}) : std::nullopt;
+      encoded = encode_gridded({*model_, header_.max_error_m, header_.effort, threads_}, cloud, *std::move(gridded),
+                               bursts, prediction ? &*prediction : nullptr, writer, packet.statistics);
       ++model_age_;
+      if (temporal_ && !starts_group()) keep_reference(encoded.image, T_world_sensor);
     } else {
       encoded = encode_scattered_sweep(cloud, writer, packet.statistics);
       model_frame_.reset();
@@ -86,7 +95,7 @@ class MixtureEncoder final : public Encoder::Implementation {
     packet.kind = model_frame_ && *model_frame_ != packet.frame ? FrameKind::predicted : FrameKind::key;
     if (packet.kind == FrameKind::key && packet.frame != 0) ++next_group_;
     packet.group = next_group_;
-    packet.reference_frame = packet.kind == FrameKind::key ? packet.frame : *model_frame_;
+    packet.reference_frame = packet.kind == FrameKind::key ? packet.frame : reference_frame;
     packet.payload = writer.take();
     ++next_frame_;
     return std::vector<Packet>{std::move(packet)};
@@ -100,6 +109,12 @@ class MixtureEncoder final : public Encoder::Implementation {
 
   // The next gridded sweep brings the model.
   bool starts_group() const { return !model_frame_ || model_age_ >= header_.group; }
+
+  // For the next sweep of the group.
+  void keep_reference(const CodedImage& coded, const std::optional<Pose>& T_world_sensor) {
+    reference_ = reference_from(*model_, coded.grid, coded.image.range_m, threads_);
+    alignment_.set_reference(*model_, coded.grid, coded.image, T_world_sensor);
+  }
 
   // None when the sweep is not that of a sensor whose grid is known. Within a group the model stays as it was
   // sent, while the estimate gets better.
@@ -158,6 +173,9 @@ class MixtureEncoder final : public Encoder::Implementation {
   std::optional<SensorModel> model_;          // of this group
   std::optional<std::uint32_t> model_frame_;  // the frame that brought it
   std::optional<SweepGrid> last_grid_;        // of the sweep before
+  bool temporal_;
+  SweepAlignment alignment_;
+  ReferenceSweep reference_;                  // the sweep before, as decoded
   int model_age_ = 0;                         // sweeps coded with it
   std::uint32_t next_frame_ = 0;
   std::uint32_t next_group_ = 0;
@@ -171,6 +189,7 @@ Result<std::unique_ptr<Encoder::Implementation>> make_mixture_encoder(const Enco
   header.method = options.method;
   header.max_error_m = options.mixture.max_error_m;
   header.group = options.mixture.group;
+  header.effort = options.mixture.effort;
   if (const auto valid = validate(header); !valid) return valid.error();
   for (const FieldStep& field : options.mixture.fields.named) {
     if (!(field.step >= 0 && field.step <= 1e300)) {
@@ -178,7 +197,7 @@ Result<std::unique_ptr<Encoder::Implementation>> make_mixture_encoder(const Enco
     }
   }
   return std::unique_ptr<Encoder::Implementation>(
-      std::make_unique<MixtureEncoder>(header, options.mixture.fields, resolve_threads(runtime.threads)));
+      std::make_unique<MixtureEncoder>(header, options.mixture, resolve_threads(runtime.threads)));
 }
 
 }  // namespace pointreel

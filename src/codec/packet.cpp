@@ -90,7 +90,7 @@ std::vector<std::uint8_t> serialize(const StreamHeader& header) {
   writer.put(kFormatVersion);
   writer.put(header.method);
   if (header.method == Method::mixture) {
-    writer.put(std::uint8_t{0});
+    writer.put(header.effort);
     writer.put(static_cast<std::uint8_t>(header.group));
     while (writer.size() < kMaxErrorOffset) writer.put(std::uint8_t{0});
     writer.put(header.max_error_m);
@@ -125,7 +125,7 @@ Result<StreamHeader> parse_stream_header(std::span<const std::uint8_t> bytes) {
   header.method = reader.get<Method>();
   std::uint64_t reserved = 0;
   if (header.method == Method::mixture) {
-    reserved |= reader.get<std::uint8_t>();
+    header.effort = reader.get<Effort>();
     header.group = reader.get<std::uint8_t>();
     reserved |= reader.get<std::uint8_t>();
     reserved |= reader.get<std::uint16_t>();

@@ -27,6 +27,10 @@ Result<void> validate(const StreamHeader& header) {
       return out_of_range("max-error", header.max_error_m, "0.0005 to 1 m");
     }
     if (!within(header.group, 1, 255)) return out_of_range("group", header.group, "1 to 255 sweeps");
+    if (header.effort > Effort::max) {
+      return Error{ErrorCode::invalid_argument,
+                   "effort " + std::to_string(static_cast<int>(header.effort)) + " is not known"};
+    }
     return {};
   }
   if (header.method != Method::planes) {

@@ -50,6 +50,4 @@ CodedBand encode_band(const BandSetting& setting, const Band& band, GridImage& i
 Result<void> decode_band(const BandSetting& setting, const Band& band, std::span<const std::uint8_t> mask,
                          std::span<const std::uint8_t> ranges, GridImage& image, BandState& state);
 
-inline constexpr float kMostRangeSteps = 1 << 24;
-
 }  // namespace pointreel

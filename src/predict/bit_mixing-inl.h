@@ -40,22 +40,22 @@ inline constexpr auto kSquashTable = [] {
 }();
 
 // Without a branch, which a ternary becomes.
-HWY_INLINE float clamped(float x, float least, float most) {
+POINTREEL_INLINE float clamped(float x, float least, float most) {
   const hn::CappedTag<float, 1> one;
   return hn::GetLane(hn::Max(hn::Min(hn::Set(one, x), hn::Set(one, most)), hn::Set(one, least)));
 }
 
 // ln(p / (1 - p)), within +-8.
-HWY_INLINE float stretched(float p) {
+POINTREEL_INLINE float stretched(float p) {
   constexpr auto kEntries = static_cast<float>(kStretchTable.size());
   return kStretchTable[static_cast<std::uint32_t>(static_cast<std::int32_t>(clamped(p * kEntries, 0, kEntries - 1)))];
 }
-HWY_INLINE float stretched(const CountedBit& bit) {
+POINTREEL_INLINE float stretched(const CountedBit& bit) {
   return kStretchTable[bit.p_one() >> (kProbabilityBits - bit_mixer_detail::kStretchIndexBits)];
 }
 
 template <std::size_t kInputs, std::size_t kWeights>
-HWY_INLINE Probability16 mix(const MixerWeights<kWeights>& mixer, const std::array<float, kInputs>& inputs) {
+POINTREEL_INLINE Probability16 mix(const MixerWeights<kWeights>& mixer, const std::array<float, kInputs>& inputs) {
   static_assert(kInputs <= kWeights);
   constexpr auto kMost = static_cast<float>(kMaxStretch);
   float sum = mixer.weight[0] * inputs[0];
@@ -67,7 +67,7 @@ HWY_INLINE Probability16 mix(const MixerWeights<kWeights>& mixer, const std::arr
 // `p_one` is what mix() gave for these inputs. Weights move by rate * error * input: at most rate * 8 a bit, so
 // that no image of legal size makes them overflow.
 template <std::size_t kInputs, std::size_t kWeights>
-HWY_INLINE void learn(MixerWeights<kWeights>& mixer, const std::array<float, kInputs>& inputs, Probability16 p_one,
+POINTREEL_INLINE void learn(MixerWeights<kWeights>& mixer, const std::array<float, kInputs>& inputs, Probability16 p_one,
                       bool bit, float rate) {
   const float error =
       static_cast<float>((bit ? 65536 : 0) - static_cast<std::int32_t>(p_one)) * (rate * (1.F / 65536));

@@ -25,7 +25,7 @@ struct NeighbourWeights {
   Float8 left, left2, above, above_left, above_right, above2;
   Float8 total;
 
-  HWY_INLINE explicit NeighbourWeights(const Neighbourhood& cells)
+  POINTREEL_INLINE explicit NeighbourWeights(const Neighbourhood& cells)
       : left(where(seen(cells.range_m(-1)), all<8>(2))),
         left2(where(seen(cells.range_m(-2)), all<8>(0.7F))),
         above(where(seen(cells.range_m(0, -1)), all<8>(1))),
@@ -48,11 +48,11 @@ struct BlendedProposals {
   alignas(32) float blend_m[8];
   alignas(32) std::int32_t error_class[8];
 
-  HWY_INLINE BlendedProposals() {}
+  POINTREEL_INLINE BlendedProposals() {}
 };
 
 // Half octaves from a mean squared error in squared steps.
-HWY_INLINE Int8 error_classes(const Float8& squared_steps) {
+POINTREEL_INLINE Int8 error_classes(const Float8& squared_steps) {
   constexpr float kFloor = 0.0016F;  // below it errors are the quantiser's
   const Int8 octave = shifted_right<23>(bits_of(squared_steps + all<8>(kFloor)));
   return smaller(octave - all_ints<8>(127 + kFirstClassLog2),
@@ -62,7 +62,7 @@ HWY_INLINE Int8 error_classes(const Float8& squared_steps) {
 // The blend is the mean of the proposals but lane 0, weighted by the inverse fourth power of their recent
 // errors. It replaces lane 0 of `proposals`.
 template <std::size_t kExperts>
-HWY_INLINE void blend(const ErrorPlanes<kExperts>& errors, const Neighbourhood& cells, int step, float step_m,
+HWY_NOINLINE void blend(const ErrorPlanes<kExperts>& errors, const Neighbourhood& cells, int step, float step_m,
                       Proposals<kExperts>& proposals, BlendedProposals<kExperts>& blended) {
   constexpr float kUnknownSquaredSteps = 30;  // the experts' error where no neighbour is known
   constexpr std::ptrdiff_t kPitch = ErrorPlanes<kExperts>::kPitch;
@@ -108,7 +108,7 @@ HWY_INLINE void blend(const ErrorPlanes<kExperts>& errors, const Neighbourhood& 
 
 // Squared errors of the proposals at what was decoded, for later cells.
 template <std::size_t kExperts>
-HWY_INLINE void store_errors(const Proposals<kExperts>& proposals, const Float8& decoded_m, int step,
+HWY_NOINLINE void store_errors(const Proposals<kExperts>& proposals, const Float8& decoded_m, int step,
                              ErrorPlanes<kExperts>& errors) {
   float* to = errors.at(step);
   for (std::size_t k = 0; k < kExperts; ++k) {

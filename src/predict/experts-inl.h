@@ -67,13 +67,13 @@ template <std::size_t kExperts>
 struct Proposals {
   Float8 range_m[kExperts];
 
-  HWY_INLINE Proposals() {}
+  POINTREEL_INLINE Proposals() {}
 };
 
-HWY_INLINE Mask<8> seen(const Float8& range_m) {
+POINTREEL_INLINE Mask<8> seen(const Float8& range_m) {
   return all<8>(kSmallestRangeM) <= range_m;
 }
-HWY_INLINE Float8 inverted(const Float8& inverse_range) {
+POINTREEL_INLINE Float8 inverted(const Float8& inverse_range) {
   const Float8 least = all<8>(1e-6F);
   return where(least <= inverse_range, all<8>(1) / larger(inverse_range, least));
 }
@@ -83,7 +83,7 @@ struct Surroundings {
   Float8 left, left2, above, above_left, above_right, above_right2;
   Float8 start;  // where nothing better is known; positive
 
-  HWY_INLINE Surroundings(const Neighbourhood& cells, const RowMemory& memory, const Float8& reference_m)
+  POINTREEL_INLINE Surroundings(const Neighbourhood& cells, const RowMemory& memory, const Float8& reference_m)
       : left(memory.last_m()),
         left2(memory.before_last_m()),
         above(cells.range_m(0, -1)),
@@ -96,24 +96,24 @@ struct Surroundings {
       start = select(seen(guess), guess, start);
   }
 
-  HWY_INLINE Float8 or_start(const Float8& range_m) const { return select(seen(range_m), range_m, start); }
+  POINTREEL_INLINE Float8 or_start(const Float8& range_m) const { return select(seen(range_m), range_m, start); }
   // Extrapolations beyond these shares of the range left of the cell are noise.
-  HWY_INLINE Float8 if_likely(const Float8& range_m) const {
+  POINTREEL_INLINE Float8 if_likely(const Float8& range_m) const {
     const Mask<8> likely = (0.6F * start <= range_m) & (range_m <= 1.5F * start) & seen(range_m);
     return select(likely, range_m, start);
   }
-  HWY_INLINE Float8 line2() const {
+  POINTREEL_INLINE Float8 line2() const {
     const Float8 inverse = 2 * (all<8>(1) / larger(left, all<8>(kSmallestRangeM))) -
                            all<8>(1) / larger(left2, all<8>(kSmallestRangeM));
     return if_likely(where(seen(left2), inverted(inverse)));
   }
-  HWY_INLINE Float8 step_from_above() const {
+  POINTREEL_INLINE Float8 step_from_above() const {
     return if_likely(where(seen(left) & seen(above) & seen(above_right), left + (above_right - above)));
   }
-  HWY_INLINE Float8 mean_left() const { return or_start(where(seen(left2), 0.5F * (left + left2))); }
+  POINTREEL_INLINE Float8 mean_left() const { return or_start(where(seen(left2), 0.5F * (left + left2))); }
 };
 
-HWY_INLINE Proposals<16> propose_for_key_frame(const Neighbourhood& cells, const RowMemory& memory) {
+HWY_NOINLINE Proposals<16> propose_for_key_frame(const Neighbourhood& cells, const RowMemory& memory) {
   const Surroundings around(cells, memory, all<8>(0));
   const LocalFits fits = fit_locally(cells, around.start, around.above);
   Proposals<16> proposals;
@@ -139,7 +139,7 @@ HWY_INLINE Proposals<16> propose_for_key_frame(const Neighbourhood& cells, const
 }
 
 // Mean difference of what is coded around a cell to the reference, where the two show the same surface.
-HWY_INLINE Float8 mean_difference(const Neighbourhood& cells, const ReferenceView& reference) {
+POINTREEL_INLINE Float8 mean_difference(const Neighbourhood& cells, const ReferenceView& reference) {
   constexpr float kSameSurfaceM = 0.4F;
   Float8 sum = all<8>(0), count = all<8>(1);
   const auto add = [&](int column, int row) HWY_ATTR {
@@ -156,7 +156,7 @@ HWY_INLINE Float8 mean_difference(const Neighbourhood& cells, const ReferenceVie
 }
 
 template <std::size_t kExperts>
-HWY_INLINE Proposals<kExperts> propose_for_predicted_frame(const Neighbourhood& cells, const RowMemory& memory,
+HWY_NOINLINE Proposals<kExperts> propose_for_predicted_frame(const Neighbourhood& cells, const RowMemory& memory,
                                                            const ReferenceView& reference) {
   const Float8 here = reference.range_m(0);
   const Float8 west = reference.range_m(-1), east = reference.range_m(1);

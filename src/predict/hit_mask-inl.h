@@ -28,7 +28,7 @@ class HitMaskModel {
   }
 
   // Looks at what is known of eight cells.
-  HWY_INLINE void predict(int step, const ReferencePlanes* reference) {
+  POINTREEL_INLINE void predict(int step, const ReferencePlanes* reference) {
     contexts_.find(planes_, row_range_, step);
     if constexpr (kPredicted) contexts_.find_reference(planes_, ReferenceView(*reference, step), step);
     for (std::int32_t& hit : hits_) hit = 1;  // outside the image hits are the better guess
@@ -36,7 +36,7 @@ class HitMaskModel {
 
   // Codes the bit of one of them; a decoder passes anything and gets it. `row`: in the band.
   template <class Coder>
-  HWY_INLINE bool code(Coder& coder, std::size_t cell, int row, bool hit) {
+  POINTREEL_INLINE bool code(Coder& coder, std::size_t cell, int row, bool hit) {
     constexpr std::size_t kUsed = kPredicted ? std::size_t{HitMaskState::kContexts} : HitMaskState::kKeyContexts;
     constexpr float kMixingRate = 1.F / 512;
     std::array<CountedBit*, kUsed> slots;
@@ -59,7 +59,7 @@ class HitMaskModel {
   }
 
   // After the last of the eight: remembers them and their decoded ranges, 0 where there is none.
-  HWY_INLINE void remember(int step, const Float8& range_m) {
+  POINTREEL_INLINE void remember(int step, const Float8& range_m) {
     planes_.remember(step, load_ints<8>(hits_), range_m);
     const Int8 range = load_ints<8>(planes_.log_range.at(step));
     row_range_ = select(range > all_ints<8>(0), range, row_range_);
@@ -68,7 +68,7 @@ class HitMaskModel {
  private:
   HitMaskPlanes planes_;
   HitMaskState& state_;
-  Int8 row_range_ = all_ints<8>(0);  // of the last hit in each row
+  Int8 row_range_;  // of the last hit in each row
 
   // Of the eight cells at hand.
   HitMaskContexts contexts_;

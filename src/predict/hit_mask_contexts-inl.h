@@ -37,7 +37,7 @@ struct HitMaskPlanes {
     column_history.start_next_block();
   }
 
-  HWY_INLINE void remember(int step, const Int8& hits, const Float8& range_m) {
+  HWY_NOINLINE void remember(int step, const Int8& hits, const Float8& range_m) {
     // The float's exponent and 11 bits of its mantissa, 1 at 2^-4 m; what is nearer or beyond 2^12 m is clamped.
     constexpr std::int32_t kLowest = (127 - 4) << 11;
     const Int8 code = larger(smaller(shifted_right<12>(bits_of(range_m)) - all_ints<8>(kLowest), all_ints<8>(0x7FFF)),
@@ -53,7 +53,7 @@ struct HitMaskPlanes {
 };
 
 // Class of the step between two log ranges: 0 unknown, 1 same surface, 2 slanted, 3 an edge.
-HWY_INLINE Int8 edge_class(const Int8& a, const Int8& b) {
+POINTREEL_INLINE Int8 edge_class(const Int8& a, const Int8& b) {
   constexpr std::int32_t kSameSurface = 30;      // 1 to 1.5 %
   constexpr std::int32_t kSlantedSurface = 115;  // 4 to 6 %
   const Int8 one = all_ints<8>(1);
@@ -65,7 +65,7 @@ HWY_INLINE Int8 edge_class(const Int8& a, const Int8& b) {
 
 // How the last range above lies to the last one in the row: 0 near, 1 behind, 2 far behind, 3 before, 4 far
 // before, 5 unknown.
-HWY_INLINE Int8 order_class(const Int8& above, const Int8& row) {
+POINTREEL_INLINE Int8 order_class(const Int8& above, const Int8& row) {
   constexpr std::int32_t kNearby = 60;
   constexpr std::int32_t kFarApart = 775;  // a factor of 1.3
   const Int8 one = all_ints<8>(1);
@@ -77,7 +77,7 @@ HWY_INLINE Int8 order_class(const Int8& above, const Int8& row) {
 }
 
 // Two classes per octave from 1 m on.
-HWY_INLINE Int8 range_class(const Int8& log_range) {
+POINTREEL_INLINE Int8 range_class(const Int8& log_range) {
   return larger(smaller(shifted_right<10>(log_range) - all_ints<8>(8), all_ints<8>(15)), all_ints<8>(0));
 }
 
@@ -102,7 +102,7 @@ inline constexpr auto kRunClasses = [] {
 // Slots of the adaptive bits, but for what run_class() and density_class() add.
 class HitMaskContexts {
  public:
-  HWY_INLINE void find(const HitMaskPlanes& planes, const Int8& row_range, int step) {
+  HWY_NOINLINE void find(const HitMaskPlanes& planes, const Int8& row_range, int step) {
     const Int8 one = all_ints<8>(1);
     const Int8 here = load_ints<8>(planes.pattern.at(step, -1));
     const Int8 above = load_ints<8>(planes.pattern.at(step, kAhead, -1));    // bit kAhead: the cell above
@@ -138,7 +138,7 @@ class HitMaskContexts {
     store(load_ints<8>(planes.column_history.at(step, 0, -1)), column_history_);
   }
 
-  HWY_INLINE void find_reference(const HitMaskPlanes& planes, const ReferenceView& reference, int step) {
+  HWY_NOINLINE void find_reference(const HitMaskPlanes& planes, const ReferenceView& reference, int step) {
     const Int8 one = all_ints<8>(1);
     const Int8 coded = load_ints<8>(planes.pattern.at(step, -1));
     const Int8 coded_above = load_ints<8>(planes.pattern.at(step, kAhead, -1));
@@ -168,12 +168,12 @@ class HitMaskContexts {
           mixer);
   }
 
-  HWY_INLINE std::size_t run_class(std::size_t cell) const {
+  POINTREEL_INLINE std::size_t run_class(std::size_t cell) const {
     const auto pattern = static_cast<std::uint32_t>(pattern_[cell]);
     const std::uint32_t last_ones = (pattern & 1) != 0 ? ~pattern : pattern;
     return kRunClasses[static_cast<std::size_t>(std::countr_zero(last_ones))];
   }
-  HWY_INLINE std::size_t density_class(std::size_t cell) const {
+  POINTREEL_INLINE std::size_t density_class(std::size_t cell) const {
     const auto hits = [](std::int32_t pattern) HWY_ATTR {
       return static_cast<std::size_t>(std::popcount(static_cast<std::uint32_t>(pattern)));
     };

@@ -16,6 +16,14 @@
 
 #include "hwy/highway.h"
 
+// Without SIMD a value is many variables: forcing them through every call would take the compiler minutes.
+#undef POINTREEL_INLINE
+#if HWY_TARGET == HWY_SCALAR
+#define POINTREEL_INLINE inline
+#else
+#define POINTREEL_INLINE HWY_INLINE
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace pointreel {
 namespace HWY_NAMESPACE {
@@ -30,13 +38,13 @@ struct Floats {
   static constexpr std::size_t kParts = N / kPartLanes;
   hn::Vec<Tag> part[kParts];
 
-  HWY_INLINE Floats() {}  // gcc's own would not be compiled for the instruction set
+  POINTREEL_INLINE Floats() {}  // gcc's own would not be compiled for the instruction set
 };
 template <std::size_t N>
 struct Mask {
   hn::Mask<typename Floats<N>::Tag> part[Floats<N>::kParts];
 
-  HWY_INLINE Mask() {}
+  POINTREEL_INLINE Mask() {}
 };
 // 32-bit integers, in the same lanes as the floats.
 template <std::size_t N>
@@ -46,107 +54,107 @@ struct Ints {
   static constexpr std::size_t kParts = Floats<N>::kParts;
   hn::Vec<Tag> part[kParts];
 
-  HWY_INLINE Ints() {}
+  POINTREEL_INLINE Ints() {}
 };
 template <std::size_t N>
 struct IntMask {
   hn::Mask<typename Ints<N>::Tag> part[Floats<N>::kParts];
 
-  HWY_INLINE IntMask() {}
+  POINTREEL_INLINE IntMask() {}
 };
 using Float8 = Floats<8>;
 using Int8 = Ints<8>;
 
 template <std::size_t N, class Operation>
-HWY_INLINE Floats<N> each(const Operation& operation) {
+POINTREEL_INLINE Floats<N> each(const Operation& operation) {
   Floats<N> result;
   for (std::size_t i = 0; i < Floats<N>::kParts; ++i) result.part[i] = operation(i);
   return result;
 }
 
 template <std::size_t N>
-HWY_INLINE Floats<N> load(const float* lanes) {
+POINTREEL_INLINE Floats<N> load(const float* lanes) {
   using F = Floats<N>;
   return each<N>([&](std::size_t i)
                      HWY_ATTR { return hn::LoadU(typename F::Tag(), lanes + i * F::kPartLanes); });
 }
 template <std::size_t N>
-HWY_INLINE void store(const Floats<N>& a, float* lanes) {
+POINTREEL_INLINE void store(const Floats<N>& a, float* lanes) {
   using F = Floats<N>;
   for (std::size_t i = 0; i < F::kParts; ++i)
     hn::StoreU(a.part[i], typename F::Tag(), lanes + i * F::kPartLanes);
 }
 template <std::size_t N>
-HWY_INLINE Floats<N> all(float x) {
+POINTREEL_INLINE Floats<N> all(float x) {
   return each<N>([&](std::size_t) HWY_ATTR { return hn::Set(typename Floats<N>::Tag(), x); });
 }
 template <std::size_t N>
-HWY_INLINE Floats<N> operator+(const Floats<N>& a, const Floats<N>& b) {
+POINTREEL_INLINE Floats<N> operator+(const Floats<N>& a, const Floats<N>& b) {
   return each<N>([&](std::size_t i) HWY_ATTR { return hn::Add(a.part[i], b.part[i]); });
 }
 template <std::size_t N>
-HWY_INLINE Floats<N> operator-(const Floats<N>& a, const Floats<N>& b) {
+POINTREEL_INLINE Floats<N> operator-(const Floats<N>& a, const Floats<N>& b) {
   return each<N>([&](std::size_t i) HWY_ATTR { return hn::Sub(a.part[i], b.part[i]); });
 }
 template <std::size_t N>
-HWY_INLINE Floats<N> operator*(const Floats<N>& a, const Floats<N>& b) {
+POINTREEL_INLINE Floats<N> operator*(const Floats<N>& a, const Floats<N>& b) {
   return each<N>([&](std::size_t i) HWY_ATTR { return hn::Mul(a.part[i], b.part[i]); });
 }
 template <std::size_t N>
-HWY_INLINE Floats<N> operator*(float a, const Floats<N>& b) {
+POINTREEL_INLINE Floats<N> operator*(float a, const Floats<N>& b) {
   return all<N>(a) * b;
 }
 template <std::size_t N>
-HWY_INLINE Floats<N> operator/(const Floats<N>& a, const Floats<N>& b) {
+POINTREEL_INLINE Floats<N> operator/(const Floats<N>& a, const Floats<N>& b) {
   return each<N>([&](std::size_t i) HWY_ATTR { return hn::Div(a.part[i], b.part[i]); });
 }
 template <std::size_t N>
-HWY_INLINE Floats<N> square_root(const Floats<N>& a) {
+POINTREEL_INLINE Floats<N> square_root(const Floats<N>& a) {
   return each<N>([&](std::size_t i) HWY_ATTR { return hn::Sqrt(a.part[i]); });
 }
 template <std::size_t N>
-HWY_INLINE Floats<N> absolute(const Floats<N>& a) {
+POINTREEL_INLINE Floats<N> absolute(const Floats<N>& a) {
   return each<N>([&](std::size_t i) HWY_ATTR { return hn::Abs(a.part[i]); });
 }
 // Operands are never NaN here, so that all instruction sets agree.
 template <std::size_t N>
-HWY_INLINE Floats<N> smaller(const Floats<N>& a, const Floats<N>& b) {
+POINTREEL_INLINE Floats<N> smaller(const Floats<N>& a, const Floats<N>& b) {
   return each<N>([&](std::size_t i) HWY_ATTR { return hn::Min(a.part[i], b.part[i]); });
 }
 template <std::size_t N>
-HWY_INLINE Floats<N> larger(const Floats<N>& a, const Floats<N>& b) {
+POINTREEL_INLINE Floats<N> larger(const Floats<N>& a, const Floats<N>& b) {
   return each<N>([&](std::size_t i) HWY_ATTR { return hn::Max(a.part[i], b.part[i]); });
 }
 template <std::size_t N>
-HWY_INLINE Mask<N> operator<=(const Floats<N>& a, const Floats<N>& b) {
+POINTREEL_INLINE Mask<N> operator<=(const Floats<N>& a, const Floats<N>& b) {
   Mask<N> result;
   for (std::size_t i = 0; i < Floats<N>::kParts; ++i) result.part[i] = hn::Le(a.part[i], b.part[i]);
   return result;
 }
 template <std::size_t N>
-HWY_INLINE Mask<N> operator&(const Mask<N>& a, const Mask<N>& b) {
+POINTREEL_INLINE Mask<N> operator&(const Mask<N>& a, const Mask<N>& b) {
   Mask<N> result;
   for (std::size_t i = 0; i < Floats<N>::kParts; ++i) result.part[i] = hn::And(a.part[i], b.part[i]);
   return result;
 }
 template <std::size_t N>
-HWY_INLINE Floats<N> select(const Mask<N>& mask, const Floats<N>& yes, const Floats<N>& no) {
+POINTREEL_INLINE Floats<N> select(const Mask<N>& mask, const Floats<N>& yes, const Floats<N>& no) {
   return each<N>([&](std::size_t i)
                      HWY_ATTR { return hn::IfThenElse(mask.part[i], yes.part[i], no.part[i]); });
 }
 template <std::size_t N>
-HWY_INLINE Floats<N> where(const Mask<N>& mask, const Floats<N>& a) {  // 0 elsewhere
+POINTREEL_INLINE Floats<N> where(const Mask<N>& mask, const Floats<N>& a) {  // 0 elsewhere
   return each<N>([&](std::size_t i) HWY_ATTR { return hn::IfThenElseZero(mask.part[i], a.part[i]); });
 }
 template <std::size_t N>
-HWY_INLINE Floats<N> without_first(const Floats<N>& a) {  // lane 0 becomes 0
+POINTREEL_INLINE Floats<N> without_first(const Floats<N>& a) {  // lane 0 becomes 0
   Floats<N> result = a;
   result.part[0] = hn::IfThenZeroElse(hn::FirstN(typename Floats<N>::Tag(), 1), a.part[0]);
   return result;
 }
 // `a` with x in lane kLane. (Writing single lanes in memory and loading them as a vector stalls.)
 template <std::size_t kLane, std::size_t N>
-HWY_INLINE Floats<N> with_lane(const Floats<N>& a, float x) {
+POINTREEL_INLINE Floats<N> with_lane(const Floats<N>& a, float x) {
   using F = Floats<N>;
   const typename F::Tag tag;
   constexpr std::size_t kPart = kLane / F::kPartLanes, kIn = kLane % F::kPartLanes;
@@ -157,108 +165,108 @@ HWY_INLINE Floats<N> with_lane(const Floats<N>& a, float x) {
   return result;
 }
 template <std::size_t N>
-HWY_INLINE float first(const Floats<N>& a) {
+POINTREEL_INLINE float first(const Floats<N>& a) {
   return hn::GetLane(a.part[0]);
 }
 
 template <std::size_t N, class Operation>
-HWY_INLINE Ints<N> each_int(const Operation& operation) {
+POINTREEL_INLINE Ints<N> each_int(const Operation& operation) {
   Ints<N> result;
   for (std::size_t i = 0; i < Ints<N>::kParts; ++i) result.part[i] = operation(i);
   return result;
 }
 template <std::size_t N, class Operation>
-HWY_INLINE IntMask<N> each_int_mask(const Operation& operation) {
+POINTREEL_INLINE IntMask<N> each_int_mask(const Operation& operation) {
   IntMask<N> result;
   for (std::size_t i = 0; i < Ints<N>::kParts; ++i) result.part[i] = operation(i);
   return result;
 }
 template <std::size_t N>
-HWY_INLINE Ints<N> load_ints(const std::int32_t* lanes) {
+POINTREEL_INLINE Ints<N> load_ints(const std::int32_t* lanes) {
   using I = Ints<N>;
   return each_int<N>([&](std::size_t i)
                          HWY_ATTR { return hn::LoadU(typename I::Tag(), lanes + i * I::kPartLanes); });
 }
 template <std::size_t N>
-HWY_INLINE void store(const Ints<N>& a, std::int32_t* lanes) {
+POINTREEL_INLINE void store(const Ints<N>& a, std::int32_t* lanes) {
   using I = Ints<N>;
   for (std::size_t i = 0; i < I::kParts; ++i)
     hn::StoreU(a.part[i], typename I::Tag(), lanes + i * I::kPartLanes);
 }
 template <std::size_t N>
-HWY_INLINE Ints<N> all_ints(std::int32_t x) {
+POINTREEL_INLINE Ints<N> all_ints(std::int32_t x) {
   return each_int<N>([&](std::size_t) HWY_ATTR { return hn::Set(typename Ints<N>::Tag(), x); });
 }
 template <std::size_t N>
-HWY_INLINE Ints<N> operator+(const Ints<N>& a, const Ints<N>& b) {
+POINTREEL_INLINE Ints<N> operator+(const Ints<N>& a, const Ints<N>& b) {
   return each_int<N>([&](std::size_t i) HWY_ATTR { return hn::Add(a.part[i], b.part[i]); });
 }
 template <std::size_t N>
-HWY_INLINE Ints<N> operator-(const Ints<N>& a, const Ints<N>& b) {
+POINTREEL_INLINE Ints<N> operator-(const Ints<N>& a, const Ints<N>& b) {
   return each_int<N>([&](std::size_t i) HWY_ATTR { return hn::Sub(a.part[i], b.part[i]); });
 }
 template <std::size_t N>
-HWY_INLINE Ints<N> operator|(const Ints<N>& a, const Ints<N>& b) {
+POINTREEL_INLINE Ints<N> operator|(const Ints<N>& a, const Ints<N>& b) {
   return each_int<N>([&](std::size_t i) HWY_ATTR { return hn::Or(a.part[i], b.part[i]); });
 }
 template <std::size_t N>
-HWY_INLINE Ints<N> operator&(const Ints<N>& a, const Ints<N>& b) {
+POINTREEL_INLINE Ints<N> operator&(const Ints<N>& a, const Ints<N>& b) {
   return each_int<N>([&](std::size_t i) HWY_ATTR { return hn::And(a.part[i], b.part[i]); });
 }
 template <std::size_t N>
-HWY_INLINE Ints<N> absolute(const Ints<N>& a) {
+POINTREEL_INLINE Ints<N> absolute(const Ints<N>& a) {
   return each_int<N>([&](std::size_t i) HWY_ATTR { return hn::Abs(a.part[i]); });
 }
 template <std::size_t N>
-HWY_INLINE Ints<N> smaller(const Ints<N>& a, const Ints<N>& b) {
+POINTREEL_INLINE Ints<N> smaller(const Ints<N>& a, const Ints<N>& b) {
   return each_int<N>([&](std::size_t i) HWY_ATTR { return hn::Min(a.part[i], b.part[i]); });
 }
 template <std::size_t N>
-HWY_INLINE Ints<N> larger(const Ints<N>& a, const Ints<N>& b) {
+POINTREEL_INLINE Ints<N> larger(const Ints<N>& a, const Ints<N>& b) {
   return each_int<N>([&](std::size_t i) HWY_ATTR { return hn::Max(a.part[i], b.part[i]); });
 }
 template <int kBits, std::size_t N>
-HWY_INLINE Ints<N> shifted_left(const Ints<N>& a) {
+POINTREEL_INLINE Ints<N> shifted_left(const Ints<N>& a) {
   return each_int<N>([&](std::size_t i) HWY_ATTR { return hn::ShiftLeft<kBits>(a.part[i]); });
 }
 template <int kBits, std::size_t N>
-HWY_INLINE Ints<N> shifted_right(const Ints<N>& a) {
+POINTREEL_INLINE Ints<N> shifted_right(const Ints<N>& a) {
   return each_int<N>([&](std::size_t i) HWY_ATTR { return hn::ShiftRight<kBits>(a.part[i]); });
 }
 template <std::size_t N>
-HWY_INLINE IntMask<N> operator>(const Ints<N>& a, const Ints<N>& b) {
+POINTREEL_INLINE IntMask<N> operator>(const Ints<N>& a, const Ints<N>& b) {
   return each_int_mask<N>([&](std::size_t i) HWY_ATTR { return hn::Gt(a.part[i], b.part[i]); });
 }
 template <std::size_t N>
-HWY_INLINE IntMask<N> operator==(const Ints<N>& a, const Ints<N>& b) {
+POINTREEL_INLINE IntMask<N> operator==(const Ints<N>& a, const Ints<N>& b) {
   return each_int_mask<N>([&](std::size_t i) HWY_ATTR { return hn::Eq(a.part[i], b.part[i]); });
 }
 template <std::size_t N>
-HWY_INLINE IntMask<N> operator|(const IntMask<N>& a, const IntMask<N>& b) {
+POINTREEL_INLINE IntMask<N> operator|(const IntMask<N>& a, const IntMask<N>& b) {
   return each_int_mask<N>([&](std::size_t i) HWY_ATTR { return hn::Or(a.part[i], b.part[i]); });
 }
 template <std::size_t N>
-HWY_INLINE Ints<N> select(const IntMask<N>& mask, const Ints<N>& yes, const Ints<N>& no) {
+POINTREEL_INLINE Ints<N> select(const IntMask<N>& mask, const Ints<N>& yes, const Ints<N>& no) {
   return each_int<N>([&](std::size_t i)
                          HWY_ATTR { return hn::IfThenElse(mask.part[i], yes.part[i], no.part[i]); });
 }
 template <std::size_t N>
-HWY_INLINE Ints<N> where(const IntMask<N>& mask, const Ints<N>& a) {  // 0 elsewhere
+POINTREEL_INLINE Ints<N> where(const IntMask<N>& mask, const Ints<N>& a) {  // 0 elsewhere
   return each_int<N>([&](std::size_t i) HWY_ATTR { return hn::IfThenElseZero(mask.part[i], a.part[i]); });
 }
 template <std::size_t N>
-HWY_INLINE Ints<N> bits_of(const Floats<N>& a) {
+POINTREEL_INLINE Ints<N> bits_of(const Floats<N>& a) {
   return each_int<N>([&](std::size_t i) HWY_ATTR { return hn::BitCast(typename Ints<N>::Tag(), a.part[i]); });
 }
 template <std::size_t N>
-HWY_INLINE Mask<N> as_float_mask(const IntMask<N>& mask) {
+POINTREEL_INLINE Mask<N> as_float_mask(const IntMask<N>& mask) {
   Mask<N> result;
   for (std::size_t i = 0; i < Floats<N>::kParts; ++i)
     result.part[i] = hn::RebindMask(typename Floats<N>::Tag(), mask.part[i]);
   return result;
 }
 template <std::size_t N>
-HWY_INLINE IntMask<N> as_int_mask(const Mask<N>& mask) {
+POINTREEL_INLINE IntMask<N> as_int_mask(const Mask<N>& mask) {
   return each_int_mask<N>([&](std::size_t i)
                               HWY_ATTR { return hn::RebindMask(typename Ints<N>::Tag(), mask.part[i]); });
 }
@@ -270,7 +278,7 @@ struct TurnedLanes {
   alignas(64) float lanes[kGroups][8][4];
 };
 template <std::size_t kGroups>
-HWY_INLINE void store_turned(const Float8& a, const Float8& b, const Float8& c, const Float8& d,
+POINTREEL_INLINE void store_turned(const Float8& a, const Float8& b, const Float8& c, const Float8& d,
                              std::size_t group, TurnedLanes<kGroups>& turned) {
   const Float8::Tag tag;
   for (std::size_t i = 0; i < Float8::kParts; ++i) {
@@ -287,7 +295,7 @@ HWY_INLINE void store_turned(const Float8& a, const Float8& b, const Float8& c, 
   }
 }
 template <std::size_t N>
-HWY_INLINE Floats<N> load_turned(const TurnedLanes<N / 4>& turned, std::size_t lane) {
+POINTREEL_INLINE Floats<N> load_turned(const TurnedLanes<N / 4>& turned, std::size_t lane) {
   using F = Floats<N>;
   return each<N>([&](std::size_t i) HWY_ATTR {
 #if HWY_TARGET == HWY_SCALAR
@@ -304,7 +312,7 @@ HWY_INLINE Floats<N> load_turned(const TurnedLanes<N / 4>& turned, std::size_t l
 
 // Groups of eight lanes one after the other, then lane i with i + 4, with i + 2 and with i + 1.
 template <std::size_t N, class Operation>
-HWY_INLINE float combine(const Floats<N>& a, const Operation& operation) {
+POINTREEL_INLINE float combine(const Floats<N>& a, const Operation& operation) {
   using F = Floats<N>;
   constexpr std::size_t kGroup = N < 8 ? N : 8;
   constexpr std::size_t kGroupParts = kGroup / F::kPartLanes;
@@ -337,7 +345,7 @@ HWY_INLINE float combine(const Floats<N>& a, const Operation& operation) {
 }
 // Float addition is not associative: combine's order is part of the format.
 template <std::size_t N>
-HWY_INLINE float sum(const Floats<N>& a) {
+POINTREEL_INLINE float sum(const Floats<N>& a) {
   return combine(a, [](auto x, auto y) HWY_ATTR { return hn::Add(x, y); });
 }
 }  // namespace HWY_NAMESPACE

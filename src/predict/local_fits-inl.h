@@ -23,25 +23,26 @@ struct LocalFits {
   Float8 line;      // line through the cells left
   Float8 parallel;  // cell above, plus the mean step from the row above to this one left of the cell
 
-  HWY_INLINE LocalFits() {}
+  POINTREEL_INLINE LocalFits() {}
 };
 
 // Cells are similar within a few per cent, and 0.3 m for near ones.
 struct Similarity {
   Float8 reference_m, tolerance_m;
 
-  HWY_INLINE explicit Similarity(const Float8& reference)
+  POINTREEL_INLINE explicit Similarity(const Float8& reference)
       : reference_m(reference), tolerance_m(0.03F * reference + all<8>(0.3F)) {}
-  HWY_INLINE Mask<8> operator()(const Float8& range_m) const {
+  POINTREEL_INLINE Mask<8> operator()(const Float8& range_m) const {
     return (absolute(range_m - reference_m) <= tolerance_m) & (all<8>(kSmallestRangeM) <= range_m);
   }
 };
 
 // Sums of one row over the similar cells: w, w x, w x^2, w u, w x u.
 struct RowSums {
-  Float8 w = all<8>(0), wx = all<8>(0), wxx = all<8>(0), wu = all<8>(0), wxu = all<8>(0);
+  Float8 w, wx, wxx, wu, wxu;
 
-  HWY_INLINE void add(const Mask<8>& counts, float weight, float x, const Float8& u) {
+  POINTREEL_INLINE RowSums() : w(all<8>(0)), wx(w), wxx(w), wu(w), wxu(w) {}
+  POINTREEL_INLINE void add(const Mask<8>& counts, float weight, float x, const Float8& u) {
     w = w + where(counts, all<8>(weight));
     wx = wx + where(counts, all<8>(weight * x));
     wxx = wxx + where(counts, all<8>(weight * x * x));
@@ -53,7 +54,7 @@ struct RowSums {
 
 // The plane's value at the cell itself, from u = a + b x + c y, by Cramer's rule for a; y counts rows
 // downwards, kY columns a row.
-HWY_INLINE Float8 plane_at_cell(const RowSums& here, const RowSums& above, const RowSums& above2,
+POINTREEL_INLINE Float8 plane_at_cell(const RowSums& here, const RowSums& above, const RowSums& above2,
                                 const Float8& offset) {
   constexpr float kRidge = 1e-2F;  // keeps slopes small where they cannot be told
   constexpr float kSmallestDeterminant = 1e-9F;
@@ -76,7 +77,7 @@ HWY_INLINE Float8 plane_at_cell(const RowSums& here, const RowSums& above, const
 }
 
 // `reference_m`: range of the surface, `above_m`: range of the cells above or 0.
-HWY_INLINE LocalFits fit_locally(const Neighbourhood& cells, const Float8& reference_m, const Float8& above_m) {
+HWY_NOINLINE inline LocalFits fit_locally(const Neighbourhood& cells, const Float8& reference_m, const Float8& above_m) {
   const FitKernels& kernels = kFitKernels;
   const Similarity similar(reference_m);
   const Similarity similar_above(above_m);

@@ -34,10 +34,10 @@ class Mixture {
     Lanes slope;  // z G'(z)
     float mixed;
 
-    HWY_INLINE Border() {}
+    POINTREEL_INLINE Border() {}
   };
 
-  HWY_INLINE Mixture(const MixtureState& state, const BlendedProposals<kExperts>& blended, std::size_t cell)
+  POINTREEL_INLINE Mixture(const MixtureState& state, const BlendedProposals<kExperts>& blended, std::size_t cell)
       : proposals_m_(load_turned<kExperts>(blended.range_m, cell)),
         error_class_(static_cast<std::size_t>(blended.error_class[cell])) {
     const MixtureState::PerClass& per_class = state.classes[error_class_];
@@ -47,7 +47,7 @@ class Mixture {
     per_total_weight_ = per_class.per_total_weight;
   }
 
-  HWY_INLINE void evaluate(float x_m, Border& border) const {
+  POINTREEL_INLINE void evaluate(float x_m, Border& border) const {
     const Lanes z = (all<kExperts>(x_m) - proposals_m_) * inverse_scale_;
     const Lanes one = all<kExperts>(1);
     const Lanes size = absolute(z);
@@ -63,7 +63,7 @@ class Mixture {
   //   d log p / d log w_k = r_k - w_k,  r_k = w_k p_k / p
   //   d log p / d log (1/s_k) = r_k (z+ G'(z+) - z- G'(z-)) / p_k
   template <class Ingredients>
-  HWY_INLINE void learn(const Border& lower, const Border& upper, MixtureState& state) const {
+  HWY_NOINLINE void learn(const Border& lower, const Border& upper, MixtureState& state) const {
     constexpr float kWeightRate = Ingredients::kLearnsWeights ? 0.1F : 0.F;
     constexpr float kScaleRate = Ingredients::kLearnsScales ? 0.08F : 0.F;
     const Lanes one = all<kExperts>(1);
@@ -82,7 +82,7 @@ class Mixture {
   }
 
  private:
-  static HWY_INLINE Lanes clamped(const Lanes& x, float least, float most) {
+  static POINTREEL_INLINE Lanes clamped(const Lanes& x, float least, float most) {
     return larger(smaller(x, all<kExperts>(most)), all<kExperts>(least));
   }
 

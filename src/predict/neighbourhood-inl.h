@@ -29,13 +29,13 @@ struct RangePlanes {
 
 class Neighbourhood {
  public:
-  HWY_INLINE Neighbourhood(const RangePlanes& planes, int step) : planes_(planes), step_(step) {}
+  POINTREEL_INLINE Neighbourhood(const RangePlanes& planes, int step) : planes_(planes), step_(step) {}
 
   // Columns to the right of the cell, rows below it: only cells before it are there.
-  HWY_INLINE Float8 range_m(int columns_right, int rows_down = 0) const {
+  POINTREEL_INLINE Float8 range_m(int columns_right, int rows_down = 0) const {
     return load<8>(planes_.range_m.at(step_, columns_right, rows_down));
   }
-  HWY_INLINE Float8 inverse_range(int columns_right, int rows_down = 0) const {
+  POINTREEL_INLINE Float8 inverse_range(int columns_right, int rows_down = 0) const {
     return load<8>(planes_.inverse_range.at(step_, columns_right, rows_down));
   }
 

@@ -42,7 +42,7 @@ class RangeModel {
   }
 
   // Looks at what is known of eight cells.
-  HWY_INLINE void predict(int step, const ReferencePlanes* reference) {
+  POINTREEL_INLINE void predict(int step, const ReferencePlanes* reference) {
     const Neighbourhood cells(planes_, step);
     if constexpr (kPredicted) {
       proposals_ = propose_for_predicted_frame<kExperts>(cells, memory_, ReferenceView(*reference, step));
@@ -61,7 +61,7 @@ class RangeModel {
   // Codes the range of one of them, which holds a return, and gives back the reconstruction, within half a
   // step of `range_m` (which a decoder ignores). `row`: in the band.
   template <class Coder>
-  HWY_INLINE float code(Coder& coder, std::size_t cell, int row, float range_m) {
+  POINTREEL_INLINE float code(Coder& coder, std::size_t cell, int row, float range_m) {
     const float step_m = step_m_;
     const Mixture<kExperts> mixture(state_.mixture, blended_, cell);
     const float blend_m = blended_.blend_m[cell];
@@ -80,10 +80,10 @@ class RangeModel {
   }
 
   // What the eight decode to; 0 where there is no return.
-  HWY_INLINE Float8 decoded_m() const { return load<8>(decoded_m_); }
+  POINTREEL_INLINE Float8 decoded_m() const { return load<8>(decoded_m_); }
 
   // After the last of the eight: remembers them.
-  HWY_INLINE void remember(int step) {
+  POINTREEL_INLINE void remember(int step) {
     const Float8 decoded_m = this->decoded_m();
     store(decoded_m, planes_.range_m.at(step));
     store(where(seen(decoded_m), all<8>(1) / larger(decoded_m, all<8>(kSmallestRangeM))),
@@ -95,13 +95,13 @@ class RangeModel {
 
  private:
   // Hostile streams reach beyond the integers, where processors disagree about conversions.
-  static HWY_INLINE std::int32_t rounded(float x) {
+  static POINTREEL_INLINE std::int32_t rounded(float x) {
     constexpr float kMost = 1 << 30;
     x = x < kMost ? x : kMost;
     x = x > -kMost ? x : -kMost;
     return x < 0 ? -static_cast<std::int32_t>(0.5F - x) : static_cast<std::int32_t>(x + 0.5F);
   }
-  HWY_INLINE float on_lattice(float range_m, float phase_m) const {
+  POINTREEL_INLINE float on_lattice(float range_m, float phase_m) const {
     return static_cast<float>(rounded((range_m - phase_m) / step_m_)) * step_m_ + phase_m;
   }
   void leave_out_experts() {

@@ -5,6 +5,9 @@
 
 namespace pointreel {
 
+// Ranges that a model can code, in steps.
+inline constexpr float kMostRangeSteps = 1 << 24;
+
 // Without a lattice the bins of a cell are centred on its prediction, which costs least; with one they are
 // the multiples of step_m plus the row's phase, which hits the sensor's own values exactly.
 struct RangeQuantiser {

@@ -40,13 +40,13 @@ class ReferencePlanes {
 
 class ReferenceView {
  public:
-  HWY_INLINE ReferenceView(const ReferencePlanes& planes, int step) : planes_(planes), step_(step) {}
+  POINTREEL_INLINE ReferenceView(const ReferencePlanes& planes, int step) : planes_(planes), step_(step) {}
 
   // Columns to the right of the cell (within the margin), rows below it (-2 to 1).
-  HWY_INLINE Float8 range_m(int columns_right, int rows_down = 0) const {
+  POINTREEL_INLINE Float8 range_m(int columns_right, int rows_down = 0) const {
     return load<8>(planes_.range_m.at(step_, columns_right, rows_down));
   }
-  HWY_INLINE Int8 hits(int columns_right, int rows_down = 0) const {
+  POINTREEL_INLINE Int8 hits(int columns_right, int rows_down = 0) const {
     return load_ints<8>(planes_.hits.at(step_, columns_right, rows_down));
   }
 

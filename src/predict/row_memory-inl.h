@@ -16,17 +16,25 @@ namespace HWY_NAMESPACE {
 // Eight rows at once.
 class RowMemory {
  public:
+  POINTREEL_INLINE RowMemory()
+      : last_m_(all<8>(0)),
+        before_last_m_(last_m_),
+        edge_m_(last_m_),
+        earlier_edge_m_(last_m_),
+        age_(all<8>(kNever)),
+        gap_(age_) {}
+
   // Ranges of the last two returns, 0 when they are more than kReach columns back.
-  HWY_INLINE Float8 last_m() const { return where(age_ <= all<8>(kReach), last_m_); }
-  HWY_INLINE Float8 before_last_m() const {
+  POINTREEL_INLINE Float8 last_m() const { return where(age_ <= all<8>(kReach), last_m_); }
+  POINTREEL_INLINE Float8 before_last_m() const {
     return where((age_ <= all<8>(kReach)) & (gap_ <= all<8>(kReach)), before_last_m_);
   }
   // Ranges before the last two depth edges, or 0: behind a pole the wall goes on.
-  HWY_INLINE const Float8& edge_m() const { return edge_m_; }
-  HWY_INLINE const Float8& earlier_edge_m() const { return earlier_edge_m_; }
+  POINTREEL_INLINE const Float8& edge_m() const { return edge_m_; }
+  POINTREEL_INLINE const Float8& earlier_edge_m() const { return earlier_edge_m_; }
 
   // The next cells; range 0: no return.
-  HWY_INLINE void add(const Float8& range_m) {
+  POINTREEL_INLINE void add(const Float8& range_m) {
     const Mask<8> hit = all<8>(kSmallestRangeM) <= range_m;
     const Float8 last = last_m();
     const Mask<8> edge = hit & (all<8>(kSmallestRangeM) <= last) &
@@ -45,8 +53,8 @@ class RowMemory {
   static constexpr float kEdgeM = 0.3F;  // a depth edge: ranges differ by this and by a share of the range
   static constexpr float kEdgeShare = 0.02F;
 
-  Float8 last_m_ = all<8>(0), before_last_m_ = all<8>(0), edge_m_ = all<8>(0), earlier_edge_m_ = all<8>(0);
-  Float8 age_ = all<8>(kNever), gap_ = all<8>(kNever);  // columns back to the last return, and from it to the one before
+  Float8 last_m_, before_last_m_, edge_m_, earlier_edge_m_;
+  Float8 age_, gap_;  // columns back to the last return, and from it to the one before
 };
 
 }  // namespace HWY_NAMESPACE

@@ -21,17 +21,17 @@ HWY_BEFORE_NAMESPACE();
 namespace pointreel {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE float positive(float x) {
+POINTREEL_INLINE float positive(float x) {
   return x > 1e-9F ? x : 1e-9F;
 }
 
-HWY_INLINE Probability16 to_probability(float p) {
+POINTREEL_INLINE Probability16 to_probability(float p) {
   constexpr float kLeast = kMinProbability, kMost = 65536 - kMinProbability;
   return static_cast<Probability16>(static_cast<std::int32_t>(clamped(p * 65536, kLeast, kMost)));
 }
 
 template <class Ingredients, class Coder, std::size_t kModels>
-HWY_INLINE bool code_mixed(Coder& coder, float p, CountedBit* const (&models)[kModels],
+POINTREEL_INLINE bool code_mixed(Coder& coder, float p, CountedBit* const (&models)[kModels],
                            MixerWeights<kModels + 1>& mixer, bool bit) {
   if constexpr (!Ingredients::kSecondStage) return coder.code_with(bit, to_probability(p));
   constexpr std::uint32_t kSettledCount = 60;
@@ -52,12 +52,12 @@ class StepCoder {
  public:
   using Border = typename Mixture<kExperts>::Border;
 
-  HWY_INLINE StepCoder(Coder& coder, StepModels& models, const Mixture<kExperts>& mixture,
+  POINTREEL_INLINE StepCoder(Coder& coder, StepModels& models, const Mixture<kExperts>& mixture,
                        const StepContext& at, float origin_m, float step_m)
       : coder_(coder), models_(models), mixture_(mixture), at_(at), origin_m_(origin_m), step_m_(step_m) {}
 
   // Codes `wanted` (ignored when decoding) and returns it. lower() and upper() are then the borders of its bin.
-  HWY_INLINE std::int32_t code(std::int32_t wanted) {
+  POINTREEL_INLINE std::int32_t code(std::int32_t wanted) {
     mixture_.evaluate(border_m(-1), *lower_);
     mixture_.evaluate(border_m(0), *upper_);
     if (code_zero(0.5F * (upper_->mixed - lower_->mixed), wanted == 0)) return 0;
@@ -77,12 +77,12 @@ class StepCoder {
   static constexpr std::int32_t kMostSteps = 1 << 26;
 
   // Between bins `below` and below + 1.
-  HWY_INLINE float border_m(std::int32_t below) const {
+  POINTREEL_INLINE float border_m(std::int32_t below) const {
     return origin_m_ + (static_cast<float>(below) + 0.5F) * step_m_;
   }
   // Twice the probability of larger magnitudes than this; its far border is evaluated into `outer`.
   template <bool kDown>
-  HWY_INLINE float tail_beyond(std::int32_t magnitude, Border& outer) const {
+  POINTREEL_INLINE float tail_beyond(std::int32_t magnitude, Border& outer) const {
     mixture_.evaluate(kDown ? border_m(-magnitude - 1) : border_m(magnitude), outer);
     return positive(kDown ? 1 + outer.mixed : 1 - outer.mixed);
   }
@@ -125,21 +125,21 @@ class StepCoder {
     return magnitude;
   }
 
-  HWY_INLINE bool code_zero(float p, bool zero) {
+  POINTREEL_INLINE bool code_zero(float p, bool zero) {
     return code_mixed<Ingredients>(
         coder_, p,
         {&models_.zero_by_activity[at_.activity * StepModels::kErrors + at_.error],
          &models_.zero_by_row[at_.row * StepModels::kAvailabilities + at_.availability]},
         models_.zero_mixers[at_.activity * StepModels::kAvailabilities + at_.availability], zero);
   }
-  HWY_INLINE bool code_sign(float p, bool down) {
+  POINTREEL_INLINE bool code_sign(float p, bool down) {
     return code_mixed<Ingredients>(
         coder_, p,
         {&models_.sign_by_signs[at_.signs],
          &models_.sign_by_row[at_.row * StepModels::kAvailabilities + at_.availability]},
         models_.sign_mixers[at_.availability], down);
   }
-  HWY_INLINE bool code_more(std::int32_t magnitude, float p, bool more) {
+  POINTREEL_INLINE bool code_more(std::int32_t magnitude, float p, bool more) {
     const auto step = static_cast<std::size_t>(magnitude - 1);
     return code_mixed<Ingredients>(coder_, p,
                                    {&models_.more_by_error[at_.error * StepModels::kUnarySteps + step]},

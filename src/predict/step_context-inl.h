@@ -32,7 +32,7 @@ struct StepContext {
 class StepContexts {
  public:
   StepContexts() = default;
-  HWY_INLINE StepContexts(const SkewedPlane<std::int32_t>& steps, const Neighbourhood& cells, int step) {
+  POINTREEL_INLINE StepContexts(const SkewedPlane<std::int32_t>& steps, const Neighbourhood& cells, int step) {
     const auto at = [&](int columns_right, int rows_down)
                         HWY_ATTR { return load_ints<8>(steps.at(step, columns_right, rows_down)); };
     const Int8 left = at(-1, 0), left2 = at(-2, 0);
@@ -48,7 +48,7 @@ class StepContexts {
     store(has_left + has_above + has_above, availability_);
   }
 
-  HWY_INLINE StepContext of(std::size_t cell, int row, std::int32_t error_class) const {
+  POINTREEL_INLINE StepContext of(std::size_t cell, int row, std::int32_t error_class) const {
     constexpr auto kLastError = static_cast<std::int32_t>(StepModels::kErrors) - 1;
     return {static_cast<std::size_t>(signs_[cell]), static_cast<std::size_t>(activity_[cell]),
             static_cast<std::size_t>(availability_[cell]),
@@ -57,7 +57,7 @@ class StepContexts {
   }
 
  private:
-  static HWY_INLINE Int8 times5(const Int8& a) { return shifted_left<2>(a) + a; }
+  static POINTREEL_INLINE Int8 times5(const Int8& a) { return shifted_left<2>(a) + a; }
 
   alignas(32) std::int32_t signs_[8], activity_[8], availability_[8];
 };

@@ -17,7 +17,6 @@ std::string_view advice_for(std::string_view option) {
   if (option == "--fields") return "; method planes carries geometry only";
   if (option == "--no-temporal") return "; for method planes, use --group 1";
   if (option == "--threshold") return "; method mixture has --max-error";
-  if (option == "--poses" || option == "--imu") return "; method mixture makes no use of motion yet";
   return "";
 }
 
@@ -41,6 +40,10 @@ Result<EncoderOptions> mixture_options(const EncodeArguments& arguments) {
   if (!fields) return Error{ErrorCode::invalid_argument, "--fields: " + fields.error().message};
   options.mixture.fields = *std::move(fields);
   if (arguments.group) options.mixture.group = *arguments.group;
+  options.mixture.effort = arguments.effort == "fast"  ? Effort::fast
+                           : arguments.effort == "max" ? Effort::max
+                                                       : Effort::balanced;
+  options.mixture.temporal = !arguments.no_temporal;
   return options;
 }
 
@@ -108,8 +111,11 @@ void add_encode_arguments(CLI::App& verb, EncodeArguments& arguments) {
                       "the list, the others are kept as well")
           ->capture_default_str()
           ->group(mixture),
-      verb.add_flag("--no-temporal", arguments.no_temporal,
-                    "Predict no sweep from those before it (so far none is)")
+      verb.add_option("--effort", arguments.effort, "fast, balanced or max: more work, fewer bits; decoding does the same")
+          ->check(CLI::IsMember({"fast", "balanced", "max"}))
+          ->capture_default_str()
+          ->group(mixture),
+      verb.add_flag("--no-temporal", arguments.no_temporal, "Predict no sweep from the one before it")
           ->group(mixture)};
 
   const std::string planes = "Method planes";
@@ -131,14 +137,14 @@ void add_encode_arguments(CLI::App& verb, EncodeArguments& arguments) {
               "Range step of cells on no plane: auto (twice the threshold), raw (float32), or a length")
           ->capture_default_str()
           ->group(planes)};
+
+  const std::string motion = "Motion (mixture finds it in the sweeps where none is given, and refines what is)";
   auto* poses =
       verb.add_option("--poses", arguments.poses, "Sensor poses, one per sweep (KITTI), or with times (TUM)")
-          ->group(planes);
-  auto* imu = verb.add_option("--imu", arguments.imu,
-                              "IMU recording: .csv (t, ax, ay, az, wx, wy, wz) or a KITTI oxts folder")
-                  ->excludes(poses)
-                  ->group(planes);
-  arguments.planes_only.insert(arguments.planes_only.end(), {poses, imu});
+          ->group(motion);
+  verb.add_option("--imu", arguments.imu, "IMU recording: .csv (t, ax, ay, az, wx, wy, wz) or a KITTI oxts folder")
+      ->excludes(poses)
+      ->group(motion);
 }
 
 Result<EncoderOptions> encoder_options(const EncodeArguments& arguments) {

@@ -18,7 +18,8 @@ struct EncodeArguments {
   // mixture
   std::string max_error = "2cm";
   std::string fields = "all";
-  bool no_temporal = false;  // changes nothing yet: no sweep is predicted from another
+  std::string effort = "balanced";
+  bool no_temporal = false;
   // planes
   std::string threshold = "0.1";
   std::string azimuth_step = "0.18deg";
