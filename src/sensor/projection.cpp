@@ -121,6 +121,14 @@ void resolve_collisions(std::size_t cells, GriddedSweep& sweep) {
   }
 }
 
+// Sweep by sweep the order is the same.
+bool same_order(const SweepGrid* previous, const SweepGrid& grid, std::optional<bool> firing_descending) {
+  if (previous == nullptr || previous->order.kind == OrderKind::none) return false;
+  if (previous->ticks_per_turn != grid.ticks_per_turn) return false;
+  if (is_by_rows(previous->order.kind)) return !firing_descending;
+  return firing_descending == previous->order.descending;
+}
+
 }  // namespace
 
 GriddedSweep project(const SensorModel& model, const PointCloud& cloud, const GridOptions& options,
@@ -152,7 +160,9 @@ GriddedSweep project(const SensorModel& model, const PointCloud& cloud, const Gr
   measure(model, cloud, polar, rows, azimuths, columns, options, sweep);
   if (sweep.grid.motion) check_compensation(model, cloud, polar, options, sweep);
   resolve_collisions(model.rows.size() * columns.tick.size(), sweep);
-  sweep.grid.order = find_order(model, sweep, firing_descending);
+  sweep.grid.order = same_order(previous, sweep.grid, firing_descending)
+                         ? previous->order
+                         : find_order(model, sweep, firing_descending);
   return sweep;
 }
 
