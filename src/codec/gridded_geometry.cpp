@@ -63,6 +63,46 @@ std::vector<Point3f> positions_of_cells(const RayTable& rays, std::span<const fl
   return positions;
 }
 
+// Verifies each point of the grid, in space and in float32. `cells`: in output order.
+std::vector<Correction> find_corrections(const RayTable& rays, const PointCloud& cloud,
+                                         std::span<const float> range_of_cell_m,
+                                         std::span<const std::uint32_t> point_of_cell,
+                                         std::span<const std::uint32_t> cells, double max_error_m,
+                                         int threads) {
+  const std::size_t columns = rays.column_count();
+  std::vector<std::vector<std::uint32_t>> missed(rays.row_count());  // cells
+  const std::size_t pieces = std::min(rays.row_count(), std::size_t{16});
+  parallel_for(pieces, threads, [&](std::size_t piece) {
+    std::vector<Point3f> positions(columns);
+    for (std::size_t row = piece; row < rays.row_count(); row += pieces) {
+      const auto ranges_m = range_of_cell_m.subspan(row * columns, columns);
+      rays.positions_of_row(row, ranges_m, positions);
+      for (std::size_t column = 0; column < columns; ++column) {
+        if (!(ranges_m[column] > 0)) continue;
+        const std::size_t cell = row * columns + column;
+        if (distance_m(positions[column], cloud.positions[point_of_cell[cell]]) > max_error_m)
+          missed[row].push_back(static_cast<std::uint32_t>(cell));
+      }
+    }
+  });
+  std::vector<std::uint8_t> is_missed;
+  for (const auto& of_row : missed) {
+    if (!of_row.empty()) is_missed.resize(range_of_cell_m.size(), 0);
+    for (const std::uint32_t cell : of_row) is_missed[cell] = 1;
+  }
+  std::vector<Correction> corrections;
+  if (is_missed.empty()) return corrections;
+  const CorrectionSteps steps(max_error_m);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const std::size_t cell = cells[i];
+    if (is_missed[cell] == 0) continue;
+    corrections.push_back(steps.between(static_cast<std::uint32_t>(i),
+                                        rays.position(cell / columns, cell % columns, range_of_cell_m[cell]),
+                                        cloud.positions[point_of_cell[cell]]));
+  }
+  return corrections;
+}
+
 // Grid points and strays in output order; strays say where they stand.
 CodedGeometry merged(const CodingGrid& coding, std::span<const std::uint32_t> cells,
                      std::span<const float> range_of_cell_m, std::span<const std::uint32_t> stray_indices) {
@@ -152,7 +192,6 @@ EncodedGeometry encode_gridded(const SensorModel& model, const PointCloud& cloud
   const bool order_kept = sweep.grid.order.kind != OrderKind::none;
   if (!order_kept) cells = cells_in_order(occupied, range_of_cell_m, model, sweep.grid);
   sweep.grid.order.in_bursts = !bursts.empty() && order_kept;
-  const auto positions = positions_of_cells(RayTable(model, sweep.grid), range_of_cell_m, threads);
 
   const auto grid_bytes = encode_sweep_grid(model, sweep.grid);
   put_section(writer, grid_bytes);
@@ -164,16 +203,9 @@ EncodedGeometry encode_gridded(const SensorModel& model, const PointCloud& cloud
     statistics.range_bits += bits_of(band.ranges.size());
   }
 
-  // Verify each, in space and in float32.
-  const CorrectionSteps steps(max_error_m);
-  std::vector<Correction> corrections;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Point3f& original = cloud.positions[point_of_cell[cells[i]]];
-    const Point3f& decoded_position = positions[cells[i]];
-    if (distance_m(decoded_position, original) > max_error_m) {
-      corrections.push_back(steps.between(static_cast<std::uint32_t>(i), decoded_position, original));
-    }
-  }
+  const auto corrections =
+      find_corrections(RayTable(model, sweep.grid), cloud, range_of_cell_m,
+                       {point_of_cell.get(), range_of_cell_m.size()}, cells, max_error_m, threads);
 
   EncodedGeometry encoded;
   std::vector<Stray> strays;
