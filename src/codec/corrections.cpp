@@ -28,13 +28,6 @@ class CorrectionCoder {
 
 }  // namespace
 
-double distance_m(const Point3f& a, const Point3f& b) {
-  const double dx = static_cast<double>(a.x) - b.x;
-  const double dy = static_cast<double>(a.y) - b.y;
-  const double dz = static_cast<double>(a.z) - b.z;
-  return std::sqrt(dx * dx + dy * dy + dz * dz);
-}
-
 double CorrectionSteps::reach_m() const {
   // Half a unit in the last place of coordinates in [2^(k-1), 2^k) is 2^(k-25).
   constexpr double kRoundingShare = 0.045 / 1.7320508075688772;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -33,7 +34,12 @@ class CorrectionSteps {
   double max_error_m_, edge_m_;
 };
 
-double distance_m(const Point3f& a, const Point3f& b);
+inline double distance_m(const Point3f& a, const Point3f& b) {
+  const double dx = static_cast<double>(a.x) - b.x;
+  const double dy = static_cast<double>(a.y) - b.y;
+  const double dz = static_cast<double>(a.z) - b.z;
+  return std::sqrt(dx * dx + dy * dy + dz * dz);
+}
 
 // Indices ascending and below `points`.
 std::vector<std::uint8_t> encode_corrections(std::span<const Correction> corrections);

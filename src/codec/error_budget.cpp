@@ -14,6 +14,16 @@ constexpr double kBitsPerOctave = 0.7;
 // Ranges are float32: the decoded one is this much coarser than the step says.
 constexpr double kFloatRounding = 1.5 / (1 << 24);
 
+// Of values that are left so that all before it are no greater: asked for descending shares, each takes less
+// work than the one before.
+float quantile(std::vector<float>& values, double share, std::size_t& end) {
+  const auto place = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
+  const auto at = [&](std::size_t k) { return values.begin() + static_cast<std::ptrdiff_t>(k); };
+  std::nth_element(at(0), at(place), at(end));
+  end = place + 1;
+  return values[place];
+}
+
 }  // namespace
 
 RangeQuantiser choose_quantiser(const SensorModel& model, const GriddedSweep& sweep, double max_error_m) {
@@ -25,16 +35,13 @@ RangeQuantiser choose_quantiser(const SensorModel& model, const GriddedSweep& sw
     deviations_m.push_back(sweep.deviation_m[i]);
     farthest_m = std::max(farthest_m, static_cast<double>(sweep.range_m[i]));
   }
-  std::sort(deviations_m.begin(), deviations_m.end());
   double best_step_m = 0, best_bits = 0;
+  std::size_t end = deviations_m.size();
 
   // For deviations up to d the range may be off by sqrt(E^2 - d^2); of the points beyond, those near the
   // border of their bin miss.
   for (const double share : {1.0, 0.999, 0.99, 0.97, 0.9, 0.75, 0.5, 0.25, 0.0}) {
-    const double deviation_m =
-        deviations_m.empty()
-            ? 0
-            : deviations_m[static_cast<std::size_t>(share * static_cast<double>(deviations_m.size() - 1))];
+    const double deviation_m = deviations_m.empty() ? 0 : quantile(deviations_m, share, end);
     const double left_m = std::sqrt(std::max(0.0, max_error_m * max_error_m - deviation_m * deviation_m));
     const double step_m = 2 * (left_m - kFloatRounding * farthest_m);
     if (step_m < max_error_m / 8) continue;

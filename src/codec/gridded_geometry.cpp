@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <numeric>
 #include <string>
 
 #include "base/parallel.h"
@@ -23,31 +25,30 @@ void drop_unreachable(const PointCloud& cloud, double max_error_m, GriddedSweep&
   const auto reach_m = static_cast<float>(std::min(CorrectionSteps(max_error_m).reach_m(),
                                                    max_error_m * static_cast<double>(kMostRangeSteps) / 16));
   constexpr float kNearestM = 0.01F;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
+  const auto out_of_reach = [&](std::size_t i) {
     const Point3f& p = cloud.positions[i];
-    const float largest_m = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-    if (!(largest_m < reach_m) || !(sweep.range_m[i] > kNearestM) || !(sweep.range_m[i] < reach_m)) {
-      sweep.cell_of_point[i] = -1;
+    return !((std::fabs(p.x) < reach_m) & (std::fabs(p.y) < reach_m) & (std::fabs(p.z) < reach_m) &
+             (sweep.range_m[i] > kNearestM) & (sweep.range_m[i] < reach_m));
+  };
+  // Hardly a block has one.
+  constexpr std::size_t kBlock = 64;
+  for (std::size_t first = 0; first < cloud.size(); first += kBlock) {
+    const std::size_t last = std::min(cloud.size(), first + kBlock);
+    int any = 0;
+    for (std::size_t i = first; i < last; ++i) any |= out_of_reach(i) ? 1 : 0;
+    if (any == 0) continue;
+    for (std::size_t i = first; i < last; ++i) {
+      if (out_of_reach(i)) sweep.cell_of_point[i] = -1;
     }
   }
 }
 
-// The parts of the grid's geometry that follow from the decoded image alone.
-struct DecodedCells {
-  std::vector<std::uint8_t> occupied;  // per cell of the sensor grid
-  std::vector<float> range_m;          // the same
-
-  DecodedCells(const CodingGrid& coding, const GridImage& image, int threads)
-      : occupied(image.range_m.size()), range_m(image.range_m.size()) {
-    parallel_for(coding.rows(), threads, [&](std::size_t row) {
-      for (std::size_t column = 0; column < coding.columns(); ++column) {
-        const std::size_t cell = row * coding.columns() + column;
-        range_m[cell] = image.range_m[coding.image_index(row, column)];
-        occupied[cell] = range_m[cell] > 0 ? 1 : 0;
-      }
-    });
-  }
-};
+std::vector<std::uint8_t> occupied_cells(std::span<const float> range_of_cell_m) {
+  std::vector<std::uint8_t> occupied(range_of_cell_m.size());
+  for (std::size_t cell = 0; cell < occupied.size(); ++cell)
+    occupied[cell] = range_of_cell_m[cell] > 0 ? 1 : 0;
+  return occupied;
+}
 
 // One position a cell of the sensor grid; those of empty cells mean nothing.
 std::vector<Point3f> positions_of_cells(const RayTable& rays, std::span<const float> range_of_cell_m,
@@ -61,6 +62,46 @@ std::vector<Point3f> positions_of_cells(const RayTable& rays, std::span<const fl
   return positions;
 }
 
+// Verifies each point of the grid, in space and in float32. `cells`: in output order.
+std::vector<Correction> find_corrections(const RayTable& rays, const PointCloud& cloud,
+                                         std::span<const float> range_of_cell_m,
+                                         std::span<const std::uint32_t> point_of_cell,
+                                         std::span<const std::uint32_t> cells, double max_error_m,
+                                         int threads) {
+  const std::size_t columns = rays.column_count();
+  std::vector<std::vector<std::uint32_t>> missed(rays.row_count());  // cells
+  const std::size_t pieces = std::min(rays.row_count(), std::size_t{16});
+  parallel_for(pieces, threads, [&](std::size_t piece) {
+    std::vector<Point3f> positions(columns);
+    for (std::size_t row = piece; row < rays.row_count(); row += pieces) {
+      const auto ranges_m = range_of_cell_m.subspan(row * columns, columns);
+      rays.positions_of_row(row, ranges_m, positions);
+      for (std::size_t column = 0; column < columns; ++column) {
+        if (!(ranges_m[column] > 0)) continue;
+        const std::size_t cell = row * columns + column;
+        if (distance_m(positions[column], cloud.positions[point_of_cell[cell]]) > max_error_m)
+          missed[row].push_back(static_cast<std::uint32_t>(cell));
+      }
+    }
+  });
+  std::vector<std::uint8_t> is_missed;
+  for (const auto& of_row : missed) {
+    if (!of_row.empty()) is_missed.resize(range_of_cell_m.size(), 0);
+    for (const std::uint32_t cell : of_row) is_missed[cell] = 1;
+  }
+  std::vector<Correction> corrections;
+  if (is_missed.empty()) return corrections;
+  const CorrectionSteps steps(max_error_m);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const std::size_t cell = cells[i];
+    if (is_missed[cell] == 0) continue;
+    corrections.push_back(steps.between(static_cast<std::uint32_t>(i),
+                                        rays.position(cell / columns, cell % columns, range_of_cell_m[cell]),
+                                        cloud.positions[point_of_cell[cell]]));
+  }
+  return corrections;
+}
+
 // Grid points and strays in output order; strays say where they stand.
 CodedGeometry merged(const CodingGrid& coding, std::span<const std::uint32_t> cells,
                      std::span<const float> range_of_cell_m, std::span<const std::uint32_t> stray_indices) {
@@ -68,20 +109,22 @@ CodedGeometry merged(const CodingGrid& coding, std::span<const std::uint32_t> ce
   geometry.rows = static_cast<std::uint32_t>(coding.rows());
   geometry.columns = static_cast<std::uint32_t>(coding.columns());
   const std::size_t count = cells.size() + stray_indices.size();
-  geometry.cell_of_point.reserve(count);
-  geometry.range_m.reserve(count);
-  std::size_t next_cell = 0, next_stray = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (next_stray < stray_indices.size() && stray_indices[next_stray] == i) {
-      ++next_stray;
-      geometry.cell_of_point.push_back(-1);
-      geometry.range_m.push_back(0);
-    } else {
-      const std::size_t cell = cells[next_cell++];
-      geometry.cell_of_point.push_back(static_cast<std::int32_t>(coding.image_index(cell)));
-      geometry.range_m.push_back(range_of_cell_m[cell]);
+  geometry.cell_of_point.assign(count, -1);
+  geometry.range_m.assign(count, 0);
+  CodingGrid::Finder image_index(coding);
+  std::size_t i = 0, next_cell = 0;
+  const auto take_until = [&](std::size_t end) {
+    for (; i < end; ++i, ++next_cell) {
+      const std::size_t cell = cells[next_cell];
+      geometry.cell_of_point[i] = static_cast<std::int32_t>(image_index(cell));
+      geometry.range_m[i] = range_of_cell_m[cell];
     }
+  };
+  for (const std::uint32_t stray : stray_indices) {
+    take_until(stray);
+    ++i;
   }
+  take_until(count);
   return geometry;
 }
 
@@ -121,55 +164,50 @@ EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud&
                                ByteWriter& writer, FrameStatistics& statistics) {
   const auto& [model, max_error_m, effort, threads] = setting;
   drop_unreachable(cloud, max_error_m, sweep);
-  sweep.grid.order.in_bursts = !bursts.empty() && sweep.grid.order.kind != OrderKind::none;
-  const auto grid_bytes = encode_sweep_grid(model, sweep.grid);
-  put_section(writer, grid_bytes);
   const RangeQuantiser quantiser = choose_quantiser(model, sweep, max_error_m);
-  put_quantiser(writer, quantiser);
 
   // Predict and code.
   const CodingGrid coding(model, sweep.grid);
-  GridImage image = coding.empty_image();
-  std::vector<std::uint32_t> point_of_cell(image.range_m.size());
+  std::vector<float> range_of_cell_m(coding.rows() * coding.columns());
+  const auto point_of_cell = std::make_unique_for_overwrite<std::uint32_t[]>(range_of_cell_m.size());
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (sweep.cell_of_point[i] < 0) continue;
     const auto cell = static_cast<std::size_t>(sweep.cell_of_point[i]);
     point_of_cell[cell] = static_cast<std::uint32_t>(i);
-    image.range_m[coding.image_index(cell)] = sweep.range_m[i];
+    range_of_cell_m[cell] = sweep.range_m[i];
   }
-  encode_image({model, sweep.grid, quantiser, effort, threads}, prediction, image, writer, statistics);
+  GridImage image = coding.image_of(range_of_cell_m, threads);
+  ByteWriter image_bytes;
+  encode_image({model, sweep.grid, quantiser, effort, threads}, prediction, image, image_bytes, statistics);
 
   // The points as the decoder will have them, in its sequence.
-  const DecodedCells decoded(coding, image, threads);
-  auto cells = cells_in_order(decoded.occupied, decoded.range_m, model, sweep.grid);
+  range_of_cell_m = coding.ranges_of_cells(image, threads);
+  const auto occupied = occupied_cells(range_of_cell_m);
+  auto cells = cells_of_points(sweep);
+  const auto moves = encode_moves(settle_order(model, occupied, range_of_cell_m, cells, sweep));
   const bool order_kept = sweep.grid.order.kind != OrderKind::none;
-  std::vector<std::uint8_t> moves;
-  if (order_kept) {
-    auto actual = cells_of_points(sweep);
-    moves = encode_moves(find_moves(cells, actual, decoded.occupied.size()));
-    cells = std::move(actual);
-  }
-  const auto positions = positions_of_cells(RayTable(model, sweep.grid), decoded.range_m, threads);
+  if (!order_kept) cells = cells_in_order(occupied, range_of_cell_m, model, sweep.grid);
+  sweep.grid.order.in_bursts = !bursts.empty() && order_kept;
 
-  // Verify each, in space and in float32.
-  const CorrectionSteps steps(max_error_m);
-  std::vector<Correction> corrections;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Point3f& original = cloud.positions[point_of_cell[cells[i]]];
-    const Point3f& decoded_position = positions[cells[i]];
-    if (distance_m(decoded_position, original) > max_error_m) {
-      corrections.push_back(steps.between(static_cast<std::uint32_t>(i), decoded_position, original));
-    }
-  }
+  const auto grid_bytes = encode_sweep_grid(model, sweep.grid);
+  put_section(writer, grid_bytes);
+  put_quantiser(writer, quantiser);
+  writer.put(image_bytes.bytes());
+
+  const auto corrections =
+      find_corrections(RayTable(model, sweep.grid), cloud, range_of_cell_m,
+                       {point_of_cell.get(), range_of_cell_m.size()}, cells, max_error_m, threads);
 
   EncodedGeometry encoded;
   std::vector<Stray> strays;
   std::vector<std::uint32_t> stray_indices;
-  if (!order_kept) {
+  if (order_kept) {
+    encoded.output_order.resize(cloud.size());
+    std::iota(encoded.output_order.begin(), encoded.output_order.end(), 0u);
+  } else {
     for (const std::uint32_t cell : cells) encoded.output_order.push_back(point_of_cell[cell]);
   }
   for (std::uint32_t i = 0; i < cloud.size(); ++i) {
-    if (order_kept) encoded.output_order.push_back(i);
     if (sweep.cell_of_point[i] >= 0) continue;
     const auto index = order_kept ? i : static_cast<std::uint32_t>(encoded.output_order.size());
     if (!order_kept) encoded.output_order.push_back(i);
@@ -188,7 +226,7 @@ EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud&
   statistics.stray_bits += bits_of(stray_bytes.size());
   statistics.corrected_points += static_cast<std::uint32_t>(corrections.size());
   statistics.stray_points += static_cast<std::uint32_t>(strays.size());
-  encoded.geometry = merged(coding, cells, decoded.range_m, stray_indices);
+  encoded.geometry = merged(coding, cells, range_of_cell_m, stray_indices);
   encoded.geometry.order_kept = order_kept;
   if (sweep.grid.order.in_bursts) {
     const auto burst_bytes = encode_bursts(bursts, firing_places(model, sweep.grid, cells, encoded.geometry));
@@ -214,8 +252,8 @@ Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size
   const auto decoded_image = decode_image({model, *grid, *quantiser, effort, threads}, reference, reader, image);
   if (!decoded_image) return decoded_image.error();
 
-  const DecodedCells decoded(coding, image, threads);
-  auto cells = cells_in_order(decoded.occupied, decoded.range_m, model, *grid);
+  const auto range_of_cell_m = coding.ranges_of_cells(image, threads);
+  auto cells = cells_in_order(occupied_cells(range_of_cell_m), range_of_cell_m, model, *grid);
   if (cells.size() > points_out) {
     return Error{ErrorCode::corrupt, "its grid holds " + std::to_string(cells.size()) +
                                          " points, more than its " + std::to_string(points_out)};
@@ -223,7 +261,7 @@ Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size
   const auto moves = decode_moves(cells.size(), get_section(reader));
   if (!moves) return moves.error();
   if (!moves->empty()) cells = apply_moves(cells, *moves);
-  auto positions = positions_of_cells(RayTable(model, *grid), decoded.range_m, threads);
+  auto positions = positions_of_cells(RayTable(model, *grid), range_of_cell_m, threads);
   const auto corrections = decode_corrections(get_section(reader), cells.size());
   if (!corrections) return corrections.error();
   const CorrectionSteps steps(max_error_m);
@@ -248,18 +286,18 @@ Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size
   DecodedGeometry result;
   std::vector<std::uint32_t> stray_indices;
   for (const Stray& stray : strays) stray_indices.push_back(stray.index);
-  result.geometry = merged(coding, cells, decoded.range_m, stray_indices);
+  result.geometry = merged(coding, cells, range_of_cell_m, stray_indices);
   result.geometry.order_kept = grid->order.kind != OrderKind::none;
   if (grid->order.in_bursts) {
     auto bursts = decode_bursts(firing_places(model, *grid, cells, result.geometry), get_section(reader));
     if (!bursts) return bursts.error();
     result.geometry.bursts = *std::move(bursts);
   }
-  result.positions.reserve(points_out);
+  result.positions.resize(points_out);
   std::size_t next_cell = 0, next_stray = 0;
   for (std::size_t i = 0; i < points_out; ++i) {
     const bool stray = result.geometry.cell_of_point[i] < 0;
-    result.positions.push_back(stray ? strays[next_stray++].position : positions[cells[next_cell++]]);
+    result.positions[i] = stray ? strays[next_stray++].position : positions[cells[next_cell++]];
   }
   result.image = {*grid, std::move(image)};
   return result;

@@ -1,9 +1,13 @@
 // CodingGrid: how the cells of a sensor grid lie in the image that is predicted and coded.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "base/parallel.h"
 #include "predict/grid_image.h"
 #include "sensor/ray_table.h"
 
@@ -27,14 +31,53 @@ class CodingGrid {
     return {static_cast<int>(rows_), static_cast<int>(columns_), std::vector<float>(rows_ * columns_)};
   }
 
-  // Index in the image of a cell of the sensor grid.
-  std::size_t image_index(std::size_t row, std::size_t column) const {
-    const std::size_t turned = column + static_cast<std::size_t>(shifts_[row]);
-    return row * columns_ + (turned < columns_ ? turned : turned - columns_);
+  // Ranges of the cells, empty ones 0, row after row: of the sensor grid and of the image.
+  GridImage image_of(std::span<const float> range_of_cell_m, int threads) const {
+    GridImage image = empty_image();
+    parallel_for(rows_, threads, [&](std::size_t row) {
+      const auto from = range_of_cell_m.begin() + offset(row * columns_);
+      const auto to = image.range_m.begin() + offset(row * columns_);
+      std::rotate_copy(from, from + offset(columns_ - shift(row)), from + offset(columns_), to);
+    });
+    return image;
   }
-  std::size_t image_index(std::size_t cell) const { return image_index(cell / columns_, cell % columns_); }
+  std::vector<float> ranges_of_cells(const GridImage& image, int threads) const {
+    std::vector<float> range_of_cell_m(image.range_m.size());
+    parallel_for(rows_, threads, [&](std::size_t row) {
+      const auto from = image.range_m.begin() + offset(row * columns_);
+      const auto to = range_of_cell_m.begin() + offset(row * columns_);
+      std::rotate_copy(from, from + offset(shift(row)), from + offset(columns_), to);
+    });
+    return range_of_cell_m;
+  }
+
+  // Index in the image of a cell of the sensor grid.
+  std::size_t image_index(std::size_t cell) const { return Finder(*this)(cell); }
+
+  // The same for cells asked for one after the other: fast within a row.
+  class Finder {
+   public:
+    explicit Finder(const CodingGrid& grid) : grid_(grid) {}
+    std::size_t operator()(std::size_t cell) {
+      if (cell < first_ || cell >= end_) {
+        const std::size_t row = cell / grid_.columns_;
+        first_ = row * grid_.columns_;
+        end_ = first_ + grid_.columns_;
+        shift_ = grid_.shift(row);
+      }
+      const std::size_t turned = cell + shift_;
+      return turned < end_ ? turned : turned - grid_.columns_;
+    }
+
+   private:
+    const CodingGrid& grid_;
+    std::size_t first_ = 0, end_ = 0, shift_ = 0;
+  };
 
  private:
+  static std::ptrdiff_t offset(std::size_t index) { return static_cast<std::ptrdiff_t>(index); }
+  std::size_t shift(std::size_t row) const { return static_cast<std::size_t>(shifts_[row]); }
+
   std::size_t rows_, columns_;
   std::vector<std::int32_t> shifts_;
 };

@@ -39,7 +39,7 @@ struct WarpedPoints {
 
 class Warp {
  public:
-  Warp(const SensorModel& model, const SweepGrid& grid, const ReferenceSweep& reference, const Pose& T_cur_ref)
+  Warp(const SensorModel& model, const SweepGrid& grid, const ReferenceSweep& reference, const Pose& T_ref_cur)
       : reference_(reference),
         rows_(rows_of(model)),
         coding_(model, grid),
@@ -249,8 +249,8 @@ class Warp {
 }  // namespace
 
 ReferenceImage warp(const SensorModel& model, const SweepGrid& grid, const ReferenceSweep& reference,
-                    const Pose& T_cur_ref, int threads) {
-  return Warp(model, grid, reference, T_cur_ref).run(threads);
+                    const Pose& T_ref_cur, int threads) {
+  return Warp(model, grid, reference, T_ref_cur).run(threads);
 }
 
 }  // namespace pointreel

@@ -1,10 +1,12 @@
 #include "sensor/columns.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "base/parallel.h"
+#include "sensor/side_turn.h"
 
 namespace pointreel {
 namespace {
@@ -24,12 +26,12 @@ std::size_t most_columns(std::size_t rows) {
 // Points between the columns go to a neighbour that is near enough: close to the sensor, where the file's
 // rounding turns them by more than half a tick.
 void take_in_neighbours(const PolarPoints& polar, const std::vector<std::int16_t>& rows,
-                        const std::vector<double>& azimuth_rad, double near_m, SweepColumns& columns) {
+                        const std::vector<float>& azimuth_rad, double near_m, SweepColumns& columns) {
   if (columns.tick.empty()) return;
   const double ticks_per_rad = columns.ticks_per_turn / kTurn;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i] < 0 || columns.column_of_point[i] >= 0) continue;
-    const double tick = azimuth_rad[i] * ticks_per_rad;
+    const double tick = static_cast<double>(azimuth_rad[i]) * ticks_per_rad;
     const auto above = std::lower_bound(columns.tick.begin(), columns.tick.end(), tick,
                                         [](std::uint32_t a, double b) { return a < b; });
     const auto next = static_cast<std::size_t>(above - columns.tick.begin());
@@ -46,18 +48,24 @@ void take_in_neighbours(const PolarPoints& polar, const std::vector<std::int16_t
 }
 
 SweepColumns columns_on_lattice(const SensorModel& model, const std::vector<std::int16_t>& rows,
-                                const std::vector<double>& azimuth_rad, bool unwrapped) {
+                                const std::vector<float>& azimuth_rad, bool unwrapped) {
   const std::uint32_t turn = model.ticks_per_turn;
   const std::uint32_t end = unwrapped ? 2 * turn : turn;
-  const double ticks_per_rad = turn / kTurn;
-  SweepColumns columns{turn, {}, std::vector<std::int32_t>(rows.size(), -1)};
+  const auto ticks_per_rad = static_cast<float>(turn / kTurn);
+  SweepColumns columns{turn, {}, std::vector<std::int32_t>(rows.size())};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const float azimuth = azimuth_rad[i] > 0 ? azimuth_rad[i] : 0.0F;
+    columns.column_of_point[i] = static_cast<std::int32_t>(azimuth * ticks_per_rad + 0.5F);
+  }
   std::vector<std::uint32_t> support(end, 0);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i] < 0) continue;
-    auto tick = static_cast<std::uint32_t>(std::max(0.0, azimuth_rad[i]) * ticks_per_rad + 0.5);
-    if (tick >= end) tick -= turn;
-    columns.column_of_point[i] = static_cast<std::int32_t>(tick);
-    ++support[tick];
+    std::int32_t& tick = columns.column_of_point[i];
+    if (rows[i] < 0) {
+      tick = -1;
+      continue;
+    }
+    if (tick >= static_cast<std::int32_t>(end)) tick -= static_cast<std::int32_t>(turn);
+    ++support[static_cast<std::size_t>(tick)];
   }
   std::size_t points = 0;
   std::size_t used = 0;
@@ -92,7 +100,7 @@ std::uint32_t free_ticks_per_turn(const PolarPoints& polar, double max_error_m) 
 }
 
 // Half the usual distance of two neighbours in a row, estimated from the fullest row.
-double column_step_rad(const std::vector<std::int16_t>& rows, const std::vector<double>& azimuth_rad,
+double column_step_rad(const std::vector<std::int16_t>& rows, const std::vector<float>& azimuth_rad,
                        std::size_t row_count) {
   std::vector<std::size_t> points(row_count, 0);
   for (const std::int16_t row : rows) {
@@ -117,7 +125,7 @@ double column_step_rad(const std::vector<std::int16_t>& rows, const std::vector<
 
 // Columns on no lattice: clusters of the azimuths of all rows.
 SweepColumns free_columns(const SensorModel& model, const PolarPoints& polar,
-                          const std::vector<std::int16_t>& rows, const std::vector<double>& azimuth_rad,
+                          const std::vector<std::int16_t>& rows, const std::vector<float>& azimuth_rad,
                           bool unwrapped, double max_error_m) {
   constexpr double kBinsPerStep = 12;
   constexpr std::size_t kMostBins = std::size_t{1} << 21;
@@ -136,14 +144,15 @@ SweepColumns free_columns(const SensorModel& model, const PolarPoints& polar,
   std::vector<std::uint32_t> bin_of_point(rows.size(), 0);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i] < 0) continue;
+    const double azimuth = azimuth_rad[i];
     const auto b = std::min(
-        bins - 1, static_cast<std::size_t>(std::max(0.0, azimuth_rad[i]) / span * static_cast<double>(bins)));
+        bins - 1, static_cast<std::size_t>(std::max(0.0, azimuth) / span * static_cast<double>(bins)));
     const double weight = std::min(static_cast<double>(polar.rho_m[i]), 20.0);
     bin_of_point[i] = static_cast<std::uint32_t>(b);
     ++histogram[b].points;
     histogram[b].weight += weight;
     histogram[b].sum +=
-        weight * (azimuth_rad[i] - (static_cast<double>(b) + 0.5) * span / static_cast<double>(bins));
+        weight * (azimuth - (static_cast<double>(b) + 0.5) * span / static_cast<double>(bins));
   }
   // Starts where there is nothing, so that no cluster is cut at the end of the turn.
   std::size_t start = 0;
@@ -222,27 +231,41 @@ SweepColumns free_columns(const SensorModel& model, const PolarPoints& polar,
 
 }  // namespace
 
-std::vector<double> column_azimuths(const SensorModel& model, const PolarPoints& polar,
-                                    const std::vector<std::int16_t>& rows, int threads) {
-  std::vector<double> azimuths(polar.size());
+std::vector<float> column_azimuths(const SensorModel& model, const PolarPoints& polar,
+                                   const std::vector<std::int16_t>& rows, int threads) {
+  constexpr auto kTurnF = static_cast<float>(kTurn);
+  constexpr std::size_t kBlock = 256;
+  std::vector<float> azimuths(polar.size());
+  if (model.rows.empty()) return azimuths;
   parallel_for((polar.size() + kPiecePoints - 1) / kPiecePoints, threads, [&](std::size_t piece) {
     const std::size_t last = std::min(polar.size(), (piece + 1) * kPiecePoints);
-    for (std::size_t i = piece * kPiecePoints; i < last; ++i) {
-      if (rows[i] < 0) continue;
-      const RowModel& row = model.rows[static_cast<std::size_t>(rows[i])];
-      const double t = row.side_offset_m / static_cast<double>(polar.rho_m[i]);
-      const double turned = std::fabs(t) < 0.05 ? t - t * t * t / 3 : std::atan(t);
-      double azimuth = static_cast<double>(polar.azimuth_rad[i]) - row.azimuth_rad - turned;
-      while (azimuth < 0) azimuth += kTurn;
-      while (azimuth >= kTurn) azimuth -= kTurn;
-      azimuths[i] = azimuth;
+    std::array<float, kBlock> alpha_rad, side_m, side_rad;
+    for (std::size_t first = piece * kPiecePoints; first < last; first += kBlock) {
+      const std::size_t count = std::min(kBlock, last - first);
+      for (std::size_t k = 0; k < count; ++k) {
+        const std::int16_t r = rows[first + k];
+        const RowModel& row = model.rows[r < 0 ? 0 : static_cast<std::size_t>(r)];
+        alpha_rad[k] = static_cast<float>(row.azimuth_rad);
+        side_m[k] = static_cast<float>(row.side_offset_m);
+      }
+      const float* azimuth_rad = &polar.azimuth_rad[first];
+      const float* rho_m = &polar.rho_m[first];
+      float* column_rad = &azimuths[first];
+      side_turns(side_m.data(), rho_m, count, side_rad.data());
+      for (std::size_t k = 0; k < count; ++k) {
+        float azimuth = azimuth_rad[k] - alpha_rad[k] - side_rad[k];
+        azimuth += azimuth < 0 ? kTurnF : 0.0F;
+        azimuth += azimuth < 0 ? kTurnF : 0.0F;
+        azimuth -= azimuth >= kTurnF ? kTurnF : 0.0F;
+        column_rad[k] = azimuth < kTurnF ? azimuth : 0.0F;
+      }
     }
   });
   return azimuths;
 }
 
 SweepColumns find_columns(const SensorModel& model, const PolarPoints& polar,
-                          const std::vector<std::int16_t>& rows, const std::vector<double>& azimuth_rad,
+                          const std::vector<std::int16_t>& rows, const std::vector<float>& azimuth_rad,
                           bool unwrapped, const GridOptions& options) {
   SweepColumns columns = model.ticks_per_turn > 0
                              ? columns_on_lattice(model, rows, azimuth_rad, unwrapped)

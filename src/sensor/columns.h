@@ -19,11 +19,11 @@ struct SweepColumns {
 // `azimuth_rad`: per point, the azimuth that its column must have (column_azimuths, or unwrapped along the
 // firing order: up to two turns); rows[i] < 0: no such point.
 SweepColumns find_columns(const SensorModel& model, const PolarPoints& polar,
-                          const std::vector<std::int16_t>& rows, const std::vector<double>& azimuth_rad,
+                          const std::vector<std::int16_t>& rows, const std::vector<float>& azimuth_rad,
                           bool unwrapped, const GridOptions& options);
 
 // Azimuth of the column that fires a row's laser at a point: alpha and h taken out, in [0, 2 pi).
-std::vector<double> column_azimuths(const SensorModel& model, const PolarPoints& polar,
-                                    const std::vector<std::int16_t>& rows, int threads);
+std::vector<float> column_azimuths(const SensorModel& model, const PolarPoints& polar,
+                                   const std::vector<std::int16_t>& rows, int threads);
 
 }  // namespace pointreel

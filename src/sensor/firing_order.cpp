@@ -14,17 +14,14 @@ constexpr double kHairRad = 1e-3;
 
 }  // namespace
 
-std::optional<FiringOrder> find_firing_order(const std::vector<double>& azimuth_rad,
+std::optional<FiringOrder> find_firing_order(const std::vector<float>& azimuth_rad,
                                              const std::vector<std::int16_t>& rows) {
   // Rows alone tell most clouds that are not.
-  std::size_t steps = 0;
-  std::size_t same_row = 0;
-  std::int16_t row_before = -1;
-  for (const std::int16_t row : rows) {
-    if (row < 0) continue;
-    ++steps;
-    same_row += row == row_before ? 1 : 0;
-    row_before = row;
+  std::uint32_t steps = rows.empty() || rows[0] < 0 ? 0 : 1;
+  std::uint32_t same_row = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    steps += rows[i] >= 0 ? 1 : 0;
+    same_row += (rows[i] >= 0) & (rows[i] == rows[i - 1]) ? 1 : 0;
   }
   if (steps < 32 || same_row * 2 > steps) return {};
   FiringOrder order;
@@ -38,15 +35,16 @@ std::optional<FiringOrder> find_firing_order(const std::vector<double>& azimuth_
   bool any = false;
   for (std::size_t i = 0; i < azimuth_rad.size(); ++i) {
     if (rows[i] < 0) continue;
-    if (!any) place = lowest = highest = first = azimuth_rad[i];
-    const double step = std::remainder(azimuth_rad[i] - place, kTurn);
-    order.azimuth_rad[i] = place + step;
+    const double azimuth = azimuth_rad[i];
+    if (!any) place = lowest = highest = first = azimuth;
+    const double step = std::remainder(azimuth - place, kTurn);
+    order.azimuth_rad[i] = static_cast<float>(place + step);
     any = true;
     if (std::fabs(step) < kSmallStepRad) {
       ++small;
-      lowest = std::min(lowest, order.azimuth_rad[i]);
-      highest = std::max(highest, order.azimuth_rad[i]);
-      last = order.azimuth_rad[i];
+      lowest = std::min(lowest, place + step);
+      highest = std::max(highest, place + step);
+      last = place + step;
     }
     place += std::clamp(step, -kSmallStepRad, kSmallStepRad) / 4;
   }
@@ -59,15 +57,17 @@ std::optional<FiringOrder> find_firing_order(const std::vector<double>& azimuth_
   const double origin = std::floor((lowest + kHairRad) / kTurn) * kTurn;
   for (std::size_t i = 0; i < azimuth_rad.size(); ++i) {
     if (rows[i] < 0) continue;
-    double& azimuth = order.azimuth_rad[i];
-    azimuth -= origin;
+    // From the azimuth in [0, 2 pi), whole turns away, so that it is rounded once.
+    double azimuth = azimuth_rad[i];
+    azimuth += std::nearbyint((order.azimuth_rad[i] - azimuth) / kTurn) * kTurn - origin;
     while (azimuth < -kHairRad) azimuth += kTurn;
     while (azimuth >= 2 * kTurn) azimuth -= kTurn;
+    order.azimuth_rad[i] = static_cast<float>(azimuth);
   }
   return order;
 }
 
-std::vector<double> row_leads_rad(const std::vector<double>& azimuth_rad,
+std::vector<double> row_leads_rad(const std::vector<float>& azimuth_rad,
                                   const std::vector<std::int16_t>& rows, std::size_t row_count) {
   // Median step to each row from the row most often before it.
   struct Step {
@@ -81,7 +81,7 @@ std::vector<double> row_leads_rad(const std::vector<double>& azimuth_rad,
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i] < 0) continue;
     if (before < rows.size()) {
-      const double turn = std::remainder(azimuth_rad[i] - azimuth_rad[before], kTurn);
+      const double turn = std::remainder(static_cast<double>(azimuth_rad[i] - azimuth_rad[before]), kTurn);
       steps[static_cast<std::size_t>(rows[i])].push_back({rows[before], turn});
       if (std::fabs(turn) < kSmallStepRad) advance += turn;
       ++pairs;

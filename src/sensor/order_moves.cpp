@@ -1,6 +1,7 @@
 #include "sensor/order_moves.h"
 
 #include <algorithm>
+#include <memory>
 
 #include "entropy/adaptive_models.h"
 
@@ -60,35 +61,43 @@ std::vector<std::uint32_t> order_breakers(std::span<const std::uint32_t> keys) {
 
 namespace {
 
-// Where the lists begin or end alike, nothing moves. Between: each actual element's place in the expected
-// list.
-struct Middle {
-  std::size_t first = 0;
-  std::vector<std::uint32_t> keys;
-};
-
-Middle differing_middle(std::span<const std::uint32_t> expected, std::span<const std::uint32_t> actual,
-                        std::size_t cells) {
+// Calls take(first, keys) for each of the shortest stretches that hold the same elements in another sequence;
+// keys: each actual element's place in the expected list. Elsewhere the lists are alike.
+template <class Take>
+void for_each_difference(std::span<const std::uint32_t> expected, std::span<const std::uint32_t> actual,
+                         std::size_t cells, const Take& take) {
   std::size_t first = 0;
   std::size_t last = actual.size();
   while (first < last && expected[first] == actual[first]) ++first;
   while (last > first && expected[last - 1] == actual[last - 1]) --last;
-  Middle middle{first, std::vector<std::uint32_t>(last - first)};
-  if (first == last) return middle;
-  std::vector<std::uint32_t> place(cells, 0);
+  if (first == last) return;
+  const auto place = std::make_unique_for_overwrite<std::uint32_t[]>(cells);
   for (std::size_t i = first; i < last; ++i) place[expected[i]] = static_cast<std::uint32_t>(i);
-  for (std::size_t i = first; i < last; ++i) middle.keys[i - first] = place[actual[i]];
-  return middle;
+  std::vector<std::uint32_t> keys;
+  for (std::size_t i = first; i < last;) {
+    if (expected[i] == actual[i]) {
+      ++i;
+      continue;
+    }
+    keys.clear();
+    const std::size_t begin = i;
+    for (std::size_t end = i + 1; i < end; ++i) {
+      keys.push_back(place[actual[i]]);
+      end = std::max(end, std::size_t{keys.back()} + 1);
+    }
+    take(begin, std::span<const std::uint32_t>(keys));
+  }
 }
 
 }  // namespace
 
 std::vector<OrderMove> find_moves(std::span<const std::uint32_t> expected,
                                   std::span<const std::uint32_t> actual, std::size_t cells) {
-  const Middle middle = differing_middle(expected, actual, cells);
   std::vector<OrderMove> moves;
-  for (const std::uint32_t i : order_breakers(middle.keys))
-    moves.push_back({middle.keys[i], static_cast<std::uint32_t>(middle.first) + i});
+  for_each_difference(expected, actual, cells, [&](std::size_t first, std::span<const std::uint32_t> keys) {
+    for (const std::uint32_t i : order_breakers(keys))
+      moves.push_back({keys[i], static_cast<std::uint32_t>(first) + i});
+  });
   std::sort(moves.begin(), moves.end(),
             [](const OrderMove& a, const OrderMove& b) { return a.from < b.from; });
   return moves;
@@ -96,7 +105,11 @@ std::vector<OrderMove> find_moves(std::span<const std::uint32_t> expected,
 
 std::size_t count_moves(std::span<const std::uint32_t> expected, std::span<const std::uint32_t> actual,
                         std::size_t cells) {
-  return order_breakers(differing_middle(expected, actual, cells).keys).size();
+  std::size_t moves = 0;
+  for_each_difference(expected, actual, cells, [&](std::size_t, std::span<const std::uint32_t> keys) {
+    moves += order_breakers(keys).size();
+  });
+  return moves;
 }
 
 std::vector<std::uint32_t> apply_moves(std::span<const std::uint32_t> expected,

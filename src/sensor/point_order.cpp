@@ -1,6 +1,7 @@
 #include "sensor/point_order.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "sensor/order_moves.h"
 #include "sensor/row_walk.h"
@@ -23,6 +24,11 @@ CellImage image_of(const SensorModel& model, const GriddedSweep& sweep) {
     image.range_m[cell] = sweep.range_m[i];
   }
   return image;
+}
+
+// With more, the order is not kept: a move takes about 20 bits.
+std::size_t most_moves(std::size_t points) {
+  return points / 50 + 1;
 }
 
 // The walk from one cell to the next without a division for each.
@@ -121,7 +127,18 @@ std::vector<std::uint32_t> cells_in_order(std::span<const std::uint8_t> occupied
   const auto rows = static_cast<std::uint32_t>(model.rows.size());
   const auto columns = static_cast<std::uint32_t>(grid.column_count());
   std::vector<std::uint32_t> cells;
-  cells.reserve(occupied.size());
+  if (is_by_rows(grid.order.kind)) {
+    cells.reserve(occupied.size());
+    RowWalk walk(occupied, range_m, model, grid);
+    for (const std::uint16_t row : model.row_sequence) walk.append(row, cells);
+    return cells;
+  }
+  cells.resize(occupied.size() + 1);
+  std::size_t count = 0;
+  const auto take = [&](std::uint32_t cell) {
+    cells[count] = cell;
+    count += occupied[cell] != 0 ? 1 : 0;  // branches on single cells would be mispredicted
+  };
   if (grid.order.kind == OrderKind::column_major) {
     const auto latest = std::max_element(model.row_delay.begin(), model.row_delay.end());
     const std::uint32_t slots = columns + (latest == model.row_delay.end() ? 0 : *latest);
@@ -129,18 +146,13 @@ std::vector<std::uint32_t> cells_in_order(std::span<const std::uint8_t> occupied
       for (const std::uint16_t row : model.row_sequence) {
         const std::uint32_t fired = slot - (model.row_delay.empty() ? 0 : model.row_delay[row]);
         if (fired >= columns) continue;  // or before the first
-        const std::uint32_t cell = row * columns + (grid.order.descending ? columns - 1 - fired : fired);
-        if (occupied[cell] != 0) cells.push_back(cell);
+        take(row * columns + (grid.order.descending ? columns - 1 - fired : fired));
       }
     }
-  } else if (grid.order.kind == OrderKind::none) {
-    for (std::uint32_t cell = 0; cell < rows * columns; ++cell) {
-      if (occupied[cell] != 0) cells.push_back(cell);
-    }
   } else {
-    RowWalk walk(occupied, range_m, model, grid);
-    for (const std::uint16_t row : model.row_sequence) walk.append(row, cells);
+    for (std::uint32_t cell = 0; cell < rows * columns; ++cell) take(cell);
   }
+  cells.resize(count);
   return cells;
 }
 
@@ -163,11 +175,13 @@ std::vector<std::int32_t> firing_places_of(const SensorModel& model, const Sweep
 }
 
 std::vector<std::uint32_t> cells_of_points(const GriddedSweep& sweep) {
-  std::vector<std::uint32_t> cells;
-  cells.reserve(sweep.cell_of_point.size());
+  std::vector<std::uint32_t> cells(sweep.cell_of_point.size() + 1);
+  std::size_t count = 0;
   for (const std::int32_t cell : sweep.cell_of_point) {
-    if (cell >= 0) cells.push_back(static_cast<std::uint32_t>(cell));
+    cells[count] = static_cast<std::uint32_t>(cell);
+    count += cell >= 0 ? 1 : 0;
   }
+  cells.resize(count);
   return cells;
 }
 
@@ -190,7 +204,7 @@ PointOrder find_order(const SensorModel& model, const GriddedSweep& sweep,
     grid.order.descending = summary.falling * 2 > summary.same_row;
   }
   PointOrder best;
-  std::size_t fewest = walk.size() / 50 + 2;
+  std::size_t fewest = most_moves(walk.size()) + 1;
   for (const OrderKind kind : kinds) {
     grid.order.kind = kind;
     if (kind != OrderKind::column_major)
@@ -203,6 +217,32 @@ PointOrder find_order(const SensorModel& model, const GriddedSweep& sweep,
     if (moved < walk.size() / 500) break;
   }
   return best;
+}
+
+std::vector<OrderMove> settle_order(const SensorModel& model, std::span<const std::uint8_t> occupied,
+                                    std::span<const float> range_m, std::span<const std::uint32_t> walk,
+                                    GriddedSweep& sweep) {
+  PointOrder& order = sweep.grid.order;
+  if (order.kind == OrderKind::none) return {};
+  const auto moves_now = [&] {
+    return find_moves(cells_in_order(occupied, range_m, model, sweep.grid), walk, occupied.size());
+  };
+  auto moves = moves_now();
+  constexpr std::size_t kFew = 16;
+  if (is_by_rows(order.kind) && moves.size() > kFew) {
+    const PointOrder found = find_order(model, sweep, {});
+    if (found.kind != OrderKind::none && found != order) {
+      const PointOrder before = std::exchange(order, found);
+      auto other = moves_now();
+      if (other.size() < moves.size())
+        moves = std::move(other);
+      else
+        order = before;
+    }
+  }
+  if (moves.size() <= most_moves(walk.size())) return moves;
+  order = {};
+  return {};
 }
 
 }  // namespace pointreel

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "sensor/order_moves.h"
 #include "sensor/sensor_model.h"
 #include "sensor/sweep_grid.h"
 
@@ -31,5 +32,12 @@ std::vector<std::uint32_t> cells_of_points(const GriddedSweep& sweep);
 // column-major.
 PointOrder find_order(const SensorModel& model, const GriddedSweep& sweep,
                       std::optional<bool> firing_descending);
+
+// The moves that the order of `sweep` leaves, given the image as decoded and cells_of_points(). Where an
+// order by rows, taken from the sweep before, leaves more than a few, another one is looked for; where even
+// that leaves too many, the order becomes none.
+std::vector<OrderMove> settle_order(const SensorModel& model, std::span<const std::uint8_t> occupied,
+                                    std::span<const float> range_m, std::span<const std::uint32_t> walk,
+                                    GriddedSweep& sweep);
 
 }  // namespace pointreel

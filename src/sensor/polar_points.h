@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
+#include "base/raw_vector.h"
 #include "pointreel/point_cloud.h"
 #include "sensor/sweep_grid.h"
 
@@ -13,7 +13,7 @@ namespace pointreel {
 
 // Structure of arrays; azimuths to 5e-7 rad. Points without a ray have rho 0.
 struct PolarPoints {
-  std::vector<float> rho_m, azimuth_rad, z_m;  // azimuth in [-pi, pi]
+  RawVector<float> rho_m, azimuth_rad, z_m;  // azimuth in [-pi, pi]
   std::size_t size() const { return rho_m.size(); }
   bool has_ray(std::size_t i) const { return rho_m[i] > 0; }
 };

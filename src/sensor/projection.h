@@ -15,8 +15,9 @@ struct GridOptions {
 };
 
 // Every point that is no stray has a cell of its own, and cells_in_order() of those cells gives these points
-// in the order of the cloud (unless the order is none). Any cloud will do; one that does not fit becomes
-// strays. `previous`: the grid of the sweep before, if known; it saves time where this one is much alike.
+// in the order of the cloud, but for few (unless the order is none). Any cloud will do; one that does not fit
+// becomes strays. `previous`: the grid of the sweep before, if known; it saves time where this one is much
+// alike. The order is then taken from it where it can be: settle_order() checks that.
 GriddedSweep project(const SensorModel& model, const PointCloud& cloud, const GridOptions& options = {},
                      const SweepGrid* previous = nullptr);
 

@@ -141,8 +141,12 @@ std::vector<std::int16_t> rows_by_runs(const SensorModel& model, const PolarPoin
     const bool fits = row != kNoRow && misfit < tolerance;
     if (fits) row_before = static_cast<std::size_t>(row);
     if (fits) fitting += last - first;
-    for (std::size_t i = first; i < last; ++i) {
-      if (polar.has_ray(i)) rows[i] = fits ? row : nearest(polar.rho_m[i], polar.z_m[i]);
+    if (fits) {
+      for (std::size_t i = first; i < last; ++i) rows[i] = polar.rho_m[i] > 0 ? row : kNoRow;
+    } else {
+      for (std::size_t i = first; i < last; ++i) {
+        if (polar.has_ray(i)) rows[i] = nearest(polar.rho_m[i], polar.z_m[i]);
+      }
     }
   }
   if (fitting * 2 < polar.size()) return {};
@@ -201,13 +205,30 @@ std::vector<std::int16_t> nearest_rows(const SensorModel& model, const PolarPoin
 
 void settle_rows(const SensorModel& model, const PolarPoints& polar, std::vector<std::int16_t>& rows) {
   constexpr double kFarM = 0.02;
+  constexpr std::size_t kBlock = 256;
   if (!model.ring_of_row.empty() || model.rows.empty()) return;
   const NearestRow nearest(model);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i] < 0 || !polar.has_ray(i)) continue;
-    const RowModel& row = model.rows[static_cast<std::size_t>(rows[i])];
-    if (std::fabs(height_above_row_m(row, polar.rho_m[i], polar.z_m[i])) > kFarM)
-      rows[i] = nearest(polar.rho_m[i], polar.z_m[i]);
+  std::array<float, kBlock> slope, offset_m;
+  for (std::size_t first = 0; first < rows.size(); first += kBlock) {
+    const std::size_t count = std::min(kBlock, rows.size() - first);
+    for (std::size_t k = 0; k < count; ++k) {
+      const RowModel& row = model.rows[rows[first + k] < 0 ? 0 : static_cast<std::size_t>(rows[first + k])];
+      slope[k] = static_cast<float>(row.slope);
+      offset_m[k] = static_cast<float>(row.offset_m);
+    }
+    // Hardly any point is far from its row, but for those without one.
+    const float* rho_m = &polar.rho_m[first];
+    const float* z_m = &polar.z_m[first];
+    int far = 0;
+    for (std::size_t k = 0; k < count; ++k)
+      far |= std::fabs(z_m[k] - slope[k] * rho_m[k] - offset_m[k]) > static_cast<float>(kFarM) ? 1 : 0;
+    if (far == 0) continue;
+    for (std::size_t i = first; i < first + count; ++i) {
+      if (rows[i] < 0 || !polar.has_ray(i)) continue;
+      const RowModel& row = model.rows[static_cast<std::size_t>(rows[i])];
+      if (std::fabs(height_above_row_m(row, polar.rho_m[i], polar.z_m[i])) > kFarM)
+        rows[i] = nearest(polar.rho_m[i], polar.z_m[i]);
+    }
   }
 }
 

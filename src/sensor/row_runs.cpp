@@ -17,13 +17,23 @@ bool turns_down(const PolarPoints& polar) {
   constexpr float kSmall = 0.1F;
   std::uint32_t up = 0;
   std::uint32_t down = 0;
+  const float* azimuth_rad = polar.azimuth_rad.data();
+  const float* rho_m = polar.rho_m.data();
   for (std::size_t i = 1; i < polar.size(); ++i) {
-    const float step = polar.azimuth_rad[i] - polar.azimuth_rad[i - 1];
-    const bool small = polar.rho_m[i] > 0 && polar.rho_m[i - 1] > 0 && std::fabs(step) < kSmall;
-    up += small && step > 0 ? 1 : 0;
-    down += small && step < 0 ? 1 : 0;
+    const float step = azimuth_rad[i] - azimuth_rad[i - 1];
+    const int rays = (rho_m[i] > 0) & (rho_m[i - 1] > 0);
+    up += static_cast<std::uint32_t>(rays & (step > 0) & (step < kSmall));
+    down += static_cast<std::uint32_t>(rays & (step < 0) & (step > -kSmall));
   }
   return down > up;
+}
+
+// From azimuth 0 on, points behind the sensor's left come a turn later.
+float from_front(float azimuth_rad) {
+  return azimuth_rad + (azimuth_rad < 0 ? kTurn : 0.0F);
+}
+float jump_back(float direction, float before_rad, float here_rad) {
+  return direction * (before_rad - here_rad);
 }
 
 struct BothSeams {
@@ -36,21 +46,36 @@ BothSeams split(const PolarPoints& polar) {
   const float direction = both.front.descending ? -1.0F : 1.0F;
   float before = 0;
   bool any = false;
-  for (std::size_t i = 0; i < polar.size(); ++i) {
-    if (!polar.has_ray(i)) continue;
+  const auto step_to = [&](std::size_t i) {
+    if (!polar.has_ray(i)) return;
     const float here = polar.azimuth_rad[i];
     if (!any) {
       both.front.first.push_back(0);
       both.behind.first.push_back(0);
       any = true;
     } else {
-      const float back = direction * (before - here);
-      if (back > 1) both.behind.first.push_back(i);
-      // From azimuth 0 on, points behind the sensor's left come a turn later.
-      const float turns = (before < 0 ? kTurn : 0.0F) - (here < 0 ? kTurn : 0.0F);
-      if (back + direction * turns > 1) both.front.first.push_back(i);
+      if (jump_back(direction, before, here) > 1) both.behind.first.push_back(i);
+      if (jump_back(direction, from_front(before), from_front(here)) > 1) both.front.first.push_back(i);
     }
     before = here;
+  };
+  // Most blocks have no jump.
+  constexpr std::size_t kBlock = 64;
+  for (std::size_t first = 0; first < polar.size(); first += kBlock) {
+    const std::size_t last = std::min(polar.size(), first + kBlock);
+    const float* azimuth_rad = polar.azimuth_rad.data();
+    const float* rho_m = polar.rho_m.data();
+    int jumps = first == 0 || rho_m[first - 1] == 0 ? 1 : 0;
+    for (std::size_t i = std::max<std::size_t>(first, 1); i < last; ++i) {
+      const float one = jump_back(direction, azimuth_rad[i - 1], azimuth_rad[i]);
+      const float other = jump_back(direction, from_front(azimuth_rad[i - 1]), from_front(azimuth_rad[i]));
+      jumps |= (one > 1) | (other > 1) | (rho_m[i] == 0);
+    }
+    if (jumps == 0) {
+      before = azimuth_rad[last - 1];
+      continue;
+    }
+    for (std::size_t i = first; i < last; ++i) step_to(i);
   }
   return both;
 }

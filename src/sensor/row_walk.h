@@ -41,7 +41,8 @@ inline float cosine_of(const RowModel& row) {
   return static_cast<float>(1 / std::sqrt(1 + row.slope * row.slope));
 }
 
-// Appends the occupied cells of one row, once around from the seam.
+// Appends the occupied cells of one row, once around from the seam: by azimuth from there, modulo a turn,
+// then by column.
 class RowWalk {
  public:
   RowWalk(std::span<const std::uint8_t> occupied, std::span<const float> range_m, const SensorModel& model,
@@ -51,78 +52,64 @@ class RowWalk {
         model_(model),
         order_(grid.order),
         seam_(azimuth_of_tick(grid.order.seam_tick, grid.ticks_per_turn)),
-        turned_by_(grid.column_count(), 0) {
+        place_(grid.column_count()),
+        keys_(grid.column_count() + 1) {
     azimuth_.reserve(grid.column_count());
     for (const std::uint32_t tick : grid.column_tick)
       azimuth_.push_back(azimuth_of_tick(tick, grid.ticks_per_turn));
-    keys_.resize(grid.column_count() + 1);
   }
 
   void append(std::uint32_t row, std::vector<std::uint32_t>& cells) {
-    const RowModel& laser = model_.rows[row];
-    const std::size_t columns = azimuth_.size();
-    const std::size_t first_cell = row * columns;
-    const std::uint32_t turn = row_turn(order_.kind, laser) - seam_;
-    if (order_.kind == OrderKind::row_azimuth) find_turns(laser, range_m_.subspan(first_cell, columns));
+    const auto columns = static_cast<std::uint32_t>(azimuth_.size());
+    const std::uint32_t first_cell = row * columns;
+    find_places(model_.rows[row], range_m_.subspan(first_cell, columns));
+    // In the direction of the walk they ascend but for one step back, at the seam.
+    const std::uint8_t* occupied = &occupied_[first_cell];
     std::size_t taken = 0;
-    const auto take = [&](std::size_t c) {
-      const auto cell = static_cast<std::uint32_t>(first_cell + c);
-      keys_[taken] = key_of(azimuth_[c] + turn, turned_by_[c], cell);
-      taken += occupied_[cell] != 0 ? 1 : 0;  // branches on single cells would be mispredicted
+    const auto take = [&](std::uint32_t c) {
+      keys_[taken] = (std::uint64_t{place_[c]} << 32) | c;
+      taken += occupied[c] != 0 ? 1 : 0;  // branches on single cells would be mispredicted
     };
-    // The columns ascend, but for one step back where they or the row pass the seam.
-    std::size_t first = 0;
-    for (std::size_t c = 1; c < columns; ++c) {
-      if (azimuth_[c] + turn < azimuth_[first] + turn) first = c;
-    }
     if (order_.descending) {
-      for (std::size_t c = first; c-- > 0;) take(c);
-      for (std::size_t c = columns; c-- > first;) take(c);
+      for (std::uint32_t c = columns; c-- > 0;) take(c);
     } else {
-      for (std::size_t c = first; c < columns; ++c) take(c);
-      for (std::size_t c = 0; c < first; ++c) take(c);
+      for (std::uint32_t c = 0; c < columns; ++c) take(c);
     }
     const auto keys = std::span(keys_).first(taken);
+    begin_at_seam(keys);
     sort_nearly_sorted(keys);
-    take_across_seam(keys);
-    for (const std::uint64_t key : keys) cells.push_back(static_cast<std::uint32_t>(key) & kCellMask);
+    const std::size_t before = cells.size();
+    cells.resize(before + taken);
+    for (std::size_t k = 0; k < taken; ++k)
+      cells[before + k] = first_cell + static_cast<std::uint32_t>(keys[k]);
   }
 
  private:
-  // Azimuth from the seam, which a side offset may carry to the other side of it, then the cell.
-  static constexpr int kCellBits = 24;
-  static constexpr std::uint32_t kCellMask = (1u << kCellBits) - 1;
-  static_assert(kMaxCells <= std::size_t{1} << kCellBits);
-  static constexpr std::uint64_t kSeam = std::uint64_t{1} << 33;
-  static constexpr std::uint64_t kNextSeam = kSeam + (std::uint64_t{1} << 32);
-
-  std::uint64_t key_of(std::uint32_t from_seam, std::int32_t turned_by, std::uint32_t cell) const {
-    const std::int64_t azimuth = std::int64_t{from_seam} + turned_by;
-    const std::int64_t place = order_.descending ? 0xffffffff - azimuth : azimuth;
-    return ((kSeam + static_cast<std::uint64_t>(place)) << kCellBits) | cell;
-  }
-
-  // Sorted keys before the seam go to the end, those behind the next to the beginning.
-  static void take_across_seam(std::span<std::uint64_t> keys) {
-    constexpr std::uint64_t kFirst = kSeam << kCellBits;
-    constexpr std::uint64_t kEnd = kNextSeam << kCellBits;
-    if (keys.empty() || (keys.front() >= kFirst && keys.back() < kEnd)) return;
-    const auto within = std::lower_bound(keys.begin(), keys.end(), kFirst);
-    const auto behind = std::lower_bound(within, keys.end(), kEnd);
-    for (auto key = keys.begin(); key != within; ++key) *key += kEnd - kFirst;
-    for (auto key = behind; key != keys.end(); ++key) *key -= kEnd - kFirst;
-    const auto before = within - keys.begin();
-    const auto moved = std::rotate(keys.begin(), behind, keys.end());
-    std::rotate(moved, moved + before, keys.end());
-    sort_nearly_sorted(keys);
-  }
-
-  void find_turns(const RowModel& laser, std::span<const float> range_m) {
+  void find_places(const RowModel& laser, std::span<const float> range_m) {
+    const std::uint32_t turn = row_turn(order_.kind, laser) - seam_;
+    const std::uint32_t flip = order_.descending ? 0xffffffff : 0;
+    std::uint32_t* place = place_.data();
+    const std::uint32_t* azimuth = azimuth_.data();
+    if (order_.kind != OrderKind::row_azimuth) {
+      for (std::size_t c = 0; c < range_m.size(); ++c) place[c] = (azimuth[c] + turn) ^ flip;
+      return;
+    }
     const float cosine = cosine_of(laser);
     const auto side_m = static_cast<float>(laser.side_offset_m);
-    std::int32_t* turned_by = turned_by_.data();
-    for (std::size_t c = 0; c < range_m.size(); ++c)
-      turned_by[c] = turned_by_side(side_m, range_m[c] * cosine);
+    for (std::size_t c = 0; c < range_m.size(); ++c) {
+      const auto turned_by = static_cast<std::uint32_t>(turned_by_side(side_m, range_m[c] * cosine));
+      place[c] = (azimuth[c] + turn + turned_by) ^ flip;
+    }
+  }
+
+  // Where the place falls by more than half a turn.
+  static void begin_at_seam(std::span<std::uint64_t> keys) {
+    constexpr std::uint64_t kHalfTurn = std::uint64_t{1} << 63;
+    for (std::size_t k = 1; k < keys.size(); ++k) {
+      if (keys[k - 1] < kHalfTurn || keys[k] > keys[k - 1] - kHalfTurn) continue;
+      std::rotate(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(k), keys.end());
+      return;
+    }
   }
 
   // By insertion while that is cheap, which hostile ranges may not let it be.
@@ -148,9 +135,9 @@ class RowWalk {
   const SensorModel& model_;
   PointOrder order_;
   std::uint32_t seam_;
-  std::vector<std::uint32_t> azimuth_;   // of each column
-  std::vector<std::int32_t> turned_by_;  // per column of the row
-  std::vector<std::uint64_t> keys_;      // of the row's cells so far, and one to spare
+  std::vector<std::uint32_t> azimuth_;  // of each column
+  std::vector<std::uint32_t> place_;    // per column of the row, from the seam in the walk's direction
+  std::vector<std::uint64_t> keys_;     // of the row's cells so far, and one to spare
 };
 
 }  // namespace pointreel

@@ -102,7 +102,7 @@ class ModelFit {
     }
   }
 
-  std::vector<double> azimuths() const { return column_azimuths(model_, polar_, row_of_point_, threads_); }
+  std::vector<float> azimuths() const { return column_azimuths(model_, polar_, row_of_point_, threads_); }
 
   void fit_lattice(bool in_firing_order) {
     const std::size_t rows = model_.rows.size();
@@ -124,7 +124,8 @@ class ModelFit {
     std::vector<std::vector<std::uint32_t>> ticks(rows);
     for (std::size_t r = 0; r < rows; ++r) {
       for (const std::uint32_t i : points_[r])
-        ticks[r].push_back(static_cast<std::uint32_t>(azimuth[i] / tick_rad + 0.5) % model_.ticks_per_turn);
+        ticks[r].push_back(static_cast<std::uint32_t>(static_cast<double>(azimuth[i]) / tick_rad + 0.5) %
+                           model_.ticks_per_turn);
     }
     const auto shifts = align_rows(ticks, model_.ticks_per_turn, most_ticks);
     for (std::size_t r = 0; r < rows; ++r) model_.rows[r].azimuth_rad -= shifts[r] * tick_rad;
@@ -149,7 +150,8 @@ class ModelFit {
         if (row_of_point_[i] < 0 || columns.column_of_point[i] < 0) continue;
         const double tick = columns.tick[static_cast<std::size_t>(columns.column_of_point[i])];
         const auto r = static_cast<std::size_t>(row_of_point_[i]);
-        turns[r].push_back(std::remainder(azimuth[i] - tick / columns.ticks_per_turn * kTurn, kTurn));
+        turns[r].push_back(
+            std::remainder(static_cast<double>(azimuth[i]) - tick / columns.ticks_per_turn * kTurn, kTurn));
         inverses[r].push_back(1 / static_cast<double>(polar_.rho_m[i]));
       }
       for (std::size_t r = 0; r < rows; ++r) {
