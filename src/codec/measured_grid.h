@@ -1,0 +1,46 @@
+// MeasuredGrid: a sweep on its sensor's grid as registration takes it: rays without motion compensation.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/trigonometry.h"
+#include "motion/range_grid.h"
+#include "sensor/sensor_model.h"
+#include "sensor/sweep_grid.h"
+
+namespace pointreel {
+
+class MeasuredGrid {
+ public:
+  MeasuredGrid(const SensorModel& model, const SweepGrid& grid) {
+    rows_.reserve(model.row_count());
+    for (const RowModel& row : model.rows) {
+      rows_.push_back({row.slope, row.offset_m, row.azimuth_rad, row.side_offset_m});
+    }
+    column_azimuth_rad_.reserve(grid.column_count());
+    for (const std::uint32_t tick : grid.column_tick) {
+      column_azimuth_rad_.push_back(static_cast<double>(tick % grid.ticks_per_turn) / grid.ticks_per_turn *
+                                    (2 * kPi));
+    }
+  }
+
+  // Ranges by cell of the sensor grid, row * columns + column; 0: no return. A view of both.
+  RangeGrid with(std::span<const float> range_m) const { return {rows_, column_azimuth_rad_, range_m}; }
+
+ private:
+  std::vector<GridRow> rows_;
+  std::vector<double> column_azimuth_rad_;
+};
+
+// By cell of the sensor grid, as the encoder has them before coding.
+inline std::vector<float> ranges_by_cell(const SensorModel& model, const GriddedSweep& sweep) {
+  std::vector<float> range_m(model.row_count() * sweep.grid.column_count());
+  for (std::size_t i = 0; i < sweep.cell_of_point.size(); ++i) {
+    if (sweep.cell_of_point[i] >= 0)
+      range_m[static_cast<std::size_t>(sweep.cell_of_point[i])] = sweep.range_m[i];
+  }
+  return range_m;
+}
+
+}  // namespace pointreel

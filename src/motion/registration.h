@@ -1,0 +1,44 @@
+// register_sweeps: the motion of the sensor between two sweeps, from their range images alone.
+//
+// Point-to-plane with projective association: patches of the current sweep's surfaces, moved by the pose so
+// far, are compared with what the reference has in the same direction. A few thousand patches; wide robust
+// kernel first, narrow last. Any sensor with rows and columns will do. The result is the encoder's own: it
+// travels in the stream, so nothing here needs to give the same bits on every machine.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "motion/range_grid.h"
+#include "pointreel/motion.h"
+
+namespace pointreel {
+
+struct RegistrationSettings {
+  int patches = 2400;        // of the last rounds
+  int coarse_patches = 600;  // of the rounds that find the way
+  int rounds = 5;            // at most, of the last ones
+};
+
+// Half the time, for a pose within about a centimetre.
+inline constexpr RegistrationSettings kQuickRegistration{1000, 400, 3};
+
+struct Registration {
+  Pose T_ref_cur = Pose::Identity();  // the current sweep's coordinates to the reference's, as measured
+  // False: do not trust the pose, which is then the guess (or no motion without one).
+  bool converged = false;
+  double inlier_share = 0;  // of the patches: those that find the reference within 10 cm of their planes
+  double rms_m = 0;         // of the inliers' distances from the planes
+  // Of the six degrees of freedom the one that fewest patches see, 1: all of them do. In a tunnel near 0:
+  // there the guess is kept, and cannot be far wrong for what is seen.
+  double weakest_share = 0;
+};
+
+// Both sweeps uncompensated, as measured. `guess`: a pose that may be near, such as the last motion of a
+// vehicle that goes on, or that of a pose file. Without a good one displacements up to about 3 m and 5
+// degrees are found. Any grids and any guess give a finite pose.
+Registration register_sweeps(const RangeGrid& reference, const RangeGrid& current,
+                             const std::optional<Pose>& guess = {},
+                             const RegistrationSettings& settings = {});
+
+}  // namespace pointreel

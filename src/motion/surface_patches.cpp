@@ -1,0 +1,108 @@
+#include "motion/surface_patches.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <numeric>
+#include <optional>
+
+namespace pointreel {
+namespace {
+
+// Cells to each side. A few degrees, and more columns than rows because columns are closer to each other.
+constexpr int kHalfColumns = 4;
+constexpr int kMostHalfRows = 2;
+constexpr float kNearestM = 1;  // nearer is the vehicle itself
+constexpr float kFarthestM = 80;
+constexpr float kFlatWithinM = 0.04F;  // root mean square: noise, and rows that are not quite calibrated
+constexpr float kLeastReturns = 0.7F;  // share of the patch's cells
+constexpr float kRangeSpread = 0.3F;   // of the cells' ranges, from the centre's: others are other things
+
+struct Sum {
+  Eigen::Vector3f sum_m = Eigen::Vector3f::Zero();
+  int count = 0;
+  void add(const Eigen::Vector3f& p_m) {
+    sum_m += p_m;
+    ++count;
+  }
+  Eigen::Vector3f mean_m() const { return sum_m / static_cast<float>(count); }
+};
+
+// The plane through a cell's neighbours: its normal is across the two lines from the left to the right half's
+// mean, and from the upper to the lower one's, which points missing here and there do not turn.
+std::optional<SurfacePatch> patch_around(const GridRays& sweep, int row, int column, int half_rows) {
+  const float center_range_m = sweep.range_m(row, column);
+  if (!(center_range_m > kNearestM && center_range_m < kFarthestM)) return std::nullopt;
+  std::array<Eigen::Vector3f, (2 * kHalfColumns + 1) * (2 * kMostHalfRows + 1)> points_m;
+  std::size_t count = 0;
+  Sum left, right, above, below, all;
+  for (int dr = -half_rows; dr <= half_rows; ++dr) {
+    const int middle = sweep.same_direction(column, row, row + dr);
+    for (int dc = -kHalfColumns; dc <= kHalfColumns; ++dc) {
+      const int c = sweep.wrapped(middle + dc);
+      const float range_m = sweep.range_m(row + dr, c);
+      if (!(std::fabs(range_m - center_range_m) < kRangeSpread * center_range_m)) continue;
+      const Eigen::Vector3f p_m = sweep.point_m(row + dr, c);
+      points_m[count++] = p_m;
+      all.add(p_m);
+      if (dc != 0) (dc < 0 ? left : right).add(p_m);
+      if (dr != 0) (dr < 0 ? above : below).add(p_m);
+    }
+  }
+  const int cells = (2 * half_rows + 1) * (2 * kHalfColumns + 1);
+  if (static_cast<float>(count) < kLeastReturns * static_cast<float>(cells)) return std::nullopt;
+  if (left.count == 0 || right.count == 0 || above.count == 0 || below.count == 0) return std::nullopt;
+  const Eigen::Vector3f across = (right.mean_m() - left.mean_m()).cross(below.mean_m() - above.mean_m());
+  const float length = across.norm();
+  if (!(length > 1e-9F)) return std::nullopt;
+  SurfacePatch patch{all.mean_m(), across / length};
+  float squares_m2 = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float away_m = patch.normal.dot(points_m[i] - patch.center_m);
+    squares_m2 += away_m * away_m;
+  }
+  if (!(squares_m2 < kFlatWithinM * kFlatWithinM * static_cast<float>(count))) return std::nullopt;
+  return patch;
+}
+
+// Ground, and four directions of walls. None may take more than its share, or the few surfaces that tell how
+// far the sensor went would drown among those along the way.
+int facing(const Eigen::Vector3f& normal) {
+  constexpr float kLevel = 0.8F;
+  if (std::fabs(normal.z()) > kLevel) return 0;
+  const bool steep = std::fabs(normal.y()) > std::fabs(normal.x());
+  const bool same_sign = normal.x() * normal.y() > 0;
+  return 1 + (steep ? 2 : 0) + (same_sign ? 1 : 0);
+}
+
+}  // namespace
+
+std::vector<SurfacePatch> find_surface_patches(const GridRays& sweep, int most) {
+  const int half_rows = std::clamp(sweep.row_count() / 24, 1, kMostHalfRows);
+  const std::int64_t rows = sweep.row_count() - 2 * half_rows, columns = sweep.column_count();
+  std::vector<SurfacePatch> patches;
+  if (rows < 1 || columns < 4 * kHalfColumns || most < 1) return patches;
+  // A step of the golden section around all cells visits them evenly, however early it ends.
+  const std::int64_t cells = rows * columns;
+  auto step = static_cast<std::int64_t>(0.6180339887 * static_cast<double>(cells));
+  while (std::gcd(step, cells) != 1) ++step;
+  const std::int64_t tries = std::min<std::int64_t>(cells, 6 * static_cast<std::int64_t>(most));
+  std::array<int, 5> count_facing{};
+  const int most_facing = std::max(1, most / 3);
+  patches.reserve(static_cast<std::size_t>(most));
+  for (std::int64_t i = 0, cell = 0; i < tries && static_cast<int>(patches.size()) < most; ++i) {
+    cell += step;
+    if (cell >= cells) cell -= cells;
+    const int row = half_rows + static_cast<int>(cell / columns);
+    const auto patch = patch_around(sweep, row, static_cast<int>(cell % columns), half_rows);
+    if (!patch) continue;
+    int& count = count_facing[static_cast<std::size_t>(facing(patch->normal))];
+    if (count >= most_facing) continue;
+    ++count;
+    patches.push_back(*patch);
+  }
+  return patches;
+}
+
+}  // namespace pointreel
