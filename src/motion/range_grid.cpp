@@ -28,7 +28,7 @@ double columns_per_rad(std::span<const double> column_azimuth_rad) {
   for (std::size_t c = 1; c < column_azimuth_rad.size(); ++c) {
     covered_rad += std::remainder(column_azimuth_rad[c] - column_azimuth_rad[c - 1], 2 * kPi);
   }
-  return covered_rad != 0 ? static_cast<double>(column_azimuth_rad.size() - 1) / covered_rad : 0;
+  return std::fabs(covered_rad) > 1e-6 ? static_cast<double>(column_azimuth_rad.size() - 1) / covered_rad : 0;
 }
 
 }  // namespace
@@ -39,13 +39,13 @@ GridRays::GridRays(const RangeGrid& grid) : range_m_(grid.range_m) {
   const double columns_ahead_per_rad = columns_per_rad(grid.column_azimuth_rad);
   double lowest = grid.rows[0].slope, highest = lowest, offsets_m = 0;
   for (const GridRow& row : grid.rows) {
-    const auto columns_ahead = static_cast<int>(std::llrint(row.azimuth_rad * columns_ahead_per_rad) %
-                                                static_cast<std::int64_t>(columns));
+    const auto turned_by = static_cast<int>(std::llrint(row.azimuth_rad * columns_ahead_per_rad) %
+                                            static_cast<std::int64_t>(columns));
     rows_.push_back({static_cast<float>(row.slope), static_cast<float>(row.offset_m),
                      static_cast<float>(row.azimuth_rad), static_cast<float>(row.side_offset_m),
                      static_cast<float>(1 / std::sqrt(1 + row.slope * row.slope)),
                      static_cast<float>(std::cos(row.azimuth_rad)),
-                     static_cast<float>(std::sin(row.azimuth_rad)), columns_ahead});
+                     static_cast<float>(std::sin(row.azimuth_rad)), turned_by < 0 ? turned_by + static_cast<int>(columns) : turned_by});
     lowest = std::min(lowest, row.slope);
     highest = std::max(highest, row.slope);
     offsets_m += row.offset_m;

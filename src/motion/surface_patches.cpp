@@ -12,6 +12,7 @@ namespace {
 
 // Cells to each side. A few degrees, and more columns than rows because columns are closer to each other.
 constexpr int kHalfColumns = 4;
+constexpr int kColumnStep = 2;  // every second will do
 constexpr int kMostHalfRows = 2;
 constexpr float kNearestM = 1;  // nearer is the vehicle itself
 constexpr float kFarthestM = 80;
@@ -29,6 +30,36 @@ struct Sum {
   Eigen::Vector3f mean_m() const { return sum_m / static_cast<float>(count); }
 };
 
+// Ground, and four directions of walls. None may take more than its share, or the few surfaces that tell how
+// far the sensor went would drown among those along the way.
+int facing(const Eigen::Vector3f& normal) {
+  constexpr float kLevel = 0.8F;
+  if (std::fabs(normal.z()) > kLevel) return 0;
+  const bool steep = std::fabs(normal.y()) > std::fabs(normal.x());
+  const bool same_sign = normal.x() * normal.y() > 0;
+  return 1 + (steep ? 2 : 0) + (same_sign ? 1 : 0);
+}
+
+// A look at a cell's four far neighbours alone, which settles most cases: the direction that a plane through
+// them would face; negative: there is none.
+int facing_at_first_sight(const GridRays& sweep, int row, int column, int half_rows) {
+  constexpr float kBentM = 0.15F;
+  const float center_m = sweep.range_m(row, column);
+  if (!(center_m > kNearestM && center_m < kFarthestM)) return -1;
+  const int left = sweep.wrapped(column - kHalfColumns), right = sweep.wrapped(column + kHalfColumns);
+  const int above = sweep.same_direction(column, row, row - half_rows);
+  const int below = sweep.same_direction(column, row, row + half_rows);
+  const float left_m = sweep.range_m(row, left), right_m = sweep.range_m(row, right);
+  const float above_m = sweep.range_m(row - half_rows, above), below_m = sweep.range_m(row + half_rows, below);
+  if (!(std::min({left_m, right_m, above_m, below_m}) > kNearestM)) return -1;
+  // 1/r is linear along a line on a plane.
+  const float bend_per_m = 2 / center_m - 1 / left_m - 1 / right_m;
+  if (!(std::fabs(bend_per_m) * center_m * center_m < kBentM)) return -1;
+  const Eigen::Vector3f across = sweep.point_m(row, right) - sweep.point_m(row, left);
+  const Eigen::Vector3f down = sweep.point_m(row + half_rows, below) - sweep.point_m(row - half_rows, above);
+  return facing(across.cross(down).normalized());
+}
+
 // The plane through a cell's neighbours: its normal is across the two lines from the left to the right half's
 // mean, and from the upper to the lower one's, which points missing here and there do not turn.
 std::optional<SurfacePatch> patch_around(const GridRays& sweep, int row, int column, int half_rows) {
@@ -39,7 +70,7 @@ std::optional<SurfacePatch> patch_around(const GridRays& sweep, int row, int col
   Sum left, right, above, below, all;
   for (int dr = -half_rows; dr <= half_rows; ++dr) {
     const int middle = sweep.same_direction(column, row, row + dr);
-    for (int dc = -kHalfColumns; dc <= kHalfColumns; ++dc) {
+    for (int dc = -kHalfColumns; dc <= kHalfColumns; dc += kColumnStep) {
       const int c = sweep.wrapped(middle + dc);
       const float range_m = sweep.range_m(row + dr, c);
       if (!(std::fabs(range_m - center_range_m) < kRangeSpread * center_range_m)) continue;
@@ -50,7 +81,7 @@ std::optional<SurfacePatch> patch_around(const GridRays& sweep, int row, int col
       if (dr != 0) (dr < 0 ? above : below).add(p_m);
     }
   }
-  const int cells = (2 * half_rows + 1) * (2 * kHalfColumns + 1);
+  const int cells = (2 * half_rows + 1) * (2 * kHalfColumns / kColumnStep + 1);
   if (static_cast<float>(count) < kLeastReturns * static_cast<float>(cells)) return std::nullopt;
   if (left.count == 0 || right.count == 0 || above.count == 0 || below.count == 0) return std::nullopt;
   const Eigen::Vector3f across = (right.mean_m() - left.mean_m()).cross(below.mean_m() - above.mean_m());
@@ -64,16 +95,6 @@ std::optional<SurfacePatch> patch_around(const GridRays& sweep, int row, int col
   }
   if (!(squares_m2 < kFlatWithinM * kFlatWithinM * static_cast<float>(count))) return std::nullopt;
   return patch;
-}
-
-// Ground, and four directions of walls. None may take more than its share, or the few surfaces that tell how
-// far the sensor went would drown among those along the way.
-int facing(const Eigen::Vector3f& normal) {
-  constexpr float kLevel = 0.8F;
-  if (std::fabs(normal.z()) > kLevel) return 0;
-  const bool steep = std::fabs(normal.y()) > std::fabs(normal.x());
-  const bool same_sign = normal.x() * normal.y() > 0;
-  return 1 + (steep ? 2 : 0) + (same_sign ? 1 : 0);
 }
 
 }  // namespace
@@ -95,11 +116,12 @@ std::vector<SurfacePatch> find_surface_patches(const GridRays& sweep, int most) 
     cell += step;
     if (cell >= cells) cell -= cells;
     const int row = half_rows + static_cast<int>(cell / columns);
-    const auto patch = patch_around(sweep, row, static_cast<int>(cell % columns), half_rows);
+    const auto column = static_cast<int>(cell % columns);
+    const int facing = facing_at_first_sight(sweep, row, column, half_rows);
+    if (facing < 0 || count_facing[static_cast<std::size_t>(facing)] >= most_facing) continue;
+    const auto patch = patch_around(sweep, row, column, half_rows);
     if (!patch) continue;
-    int& count = count_facing[static_cast<std::size_t>(facing(patch->normal))];
-    if (count >= most_facing) continue;
-    ++count;
+    ++count_facing[static_cast<std::size_t>(facing)];
     patches.push_back(*patch);
   }
   return patches;
