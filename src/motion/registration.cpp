@@ -56,10 +56,8 @@ float robust_share(float distance_m, float kernel_m) {
 // Sums in float: a step need not be right to more than a few digits.
 Evidence evidence_for(const Pose& T_ref_cur, const GridRays& reference, std::span<const SurfacePatch> patches,
                       float kernel_m) {
-  using Vector6f = Eigen::Matrix<float, 6, 1>;
   Evidence evidence;
-  Eigen::Matrix<float, 6, 6> hessian = Eigen::Matrix<float, 6, 6>::Zero();
-  Vector6f gradient = Vector6f::Zero();
+  float hessian[6][6] = {}, gradient[6] = {};
   for_each_match(T_ref_cur, reference, patches,
                  [&](const Eigen::Vector3f& p_m, const Eigen::Vector3f& normal, float distance_m) {
                    if (std::fabs(distance_m) < kInlierM) {
@@ -68,15 +66,18 @@ Evidence evidence_for(const Pose& T_ref_cur, const GridRays& reference, std::spa
                    }
                    const float share = robust_share(distance_m, kernel_m);
                    const float weight = share * share;
-                   Vector6f jacobian;
-                   jacobian << normal, p_m.cross(normal);
-                   const Vector6f weighted = weight * jacobian;
-                   hessian.noalias() += weighted * jacobian.transpose();
-                   gradient += distance_m * weighted;
+                   const Eigen::Vector3f turning = p_m.cross(normal);
+                   const float jacobian[6] = {normal.x(),  normal.y(),  normal.z(),
+                                              turning.x(), turning.y(), turning.z()};
+                   for (int i = 0; i < 6; ++i) {
+                     const float weighted = weight * jacobian[i];
+                     gradient[i] += distance_m * weighted;
+                     for (int j = 0; j < 6; ++j) hessian[i][j] += weighted * jacobian[j];
+                   }
                    evidence.weight += static_cast<double>(weight);
                  });
-  evidence.hessian = hessian.cast<double>();
-  evidence.gradient = gradient.cast<double>();
+  evidence.hessian = Eigen::Matrix<float, 6, 6>::Map(&hessian[0][0]).cast<double>();
+  evidence.gradient = Eigen::Matrix<float, 6, 1>::Map(gradient).cast<double>();
   return evidence;
 }
 
@@ -183,7 +184,8 @@ Registration register_from(const Pose& start, std::span<const float> kernels_m, 
       patches.first(std::min(patches.size(), static_cast<std::size_t>(std::max(0, settings.coarse_patches))));
   Pose pose = start;
   for (const float kernel_m : kernels_m) {
-    if (kernel_m == 0.5F) pose = best_along_weakest(pose, evidence_for(pose, reference, coarse, kernel_m), reference, patches);
+    if (kernel_m == 0.5F)
+      pose = best_along_weakest(pose, evidence_for(pose, reference, coarse, kernel_m), reference, patches);
     for (int i = 0; i < 2; ++i) pose = moved(solve(evidence_for(pose, reference, coarse, kernel_m)), pose);
   }
   Evidence evidence = evidence_for(pose, reference, patches, kFinestM);
