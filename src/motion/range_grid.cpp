@@ -41,11 +41,11 @@ GridRays::GridRays(const RangeGrid& grid) : range_m_(grid.range_m) {
   for (const GridRow& row : grid.rows) {
     const auto turned_by = static_cast<int>(std::llrint(row.azimuth_rad * columns_ahead_per_rad) %
                                             static_cast<std::int64_t>(columns));
-    rows_.push_back({static_cast<float>(row.slope), static_cast<float>(row.offset_m),
-                     static_cast<float>(row.azimuth_rad), static_cast<float>(row.side_offset_m),
-                     static_cast<float>(1 / std::sqrt(1 + row.slope * row.slope)),
-                     static_cast<float>(std::cos(row.azimuth_rad)),
-                     static_cast<float>(std::sin(row.azimuth_rad)), turned_by < 0 ? turned_by + static_cast<int>(columns) : turned_by});
+    rows_.push_back(
+        {static_cast<float>(row.slope), static_cast<float>(row.offset_m), static_cast<float>(row.azimuth_rad),
+         static_cast<float>(row.side_offset_m), static_cast<float>(1 / std::sqrt(1 + row.slope * row.slope)),
+         static_cast<float>(std::cos(row.azimuth_rad)), static_cast<float>(std::sin(row.azimuth_rad)),
+         turned_by < 0 ? turned_by + static_cast<int>(columns) : turned_by});
     lowest = std::min(lowest, row.slope);
     highest = std::max(highest, row.slope);
     offsets_m += row.offset_m;

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -60,19 +62,35 @@ class GridRays {
     return column < 0 ? column + count : column >= count ? column - count : column;
   }
 
-  // The cell that looks nearest to a point; negative row: none does.
   struct Cell {
     int row = -1, column = 0;
   };
-  Cell cell_towards(const Eigen::Vector3f& p_m) const {
+  // Of the cells that look towards a point or just beside it, the one whose return is as far away as the
+  // point, or most nearly so; negative row: none has a return.
+  Cell return_near(const Eigen::Vector3f& p_m) const {
     const float rho_m = std::sqrt(p_m.x() * p_m.x() + p_m.y() * p_m.y());
-    const int row = row_towards(rho_m, p_m.z());
-    if (row < 0) return {};
-    const Row& r = rows_[static_cast<std::size_t>(row)];
+    const int middle = row_towards(rho_m, p_m.z());
+    if (middle < 0) return {};
+    const Row& r = rows_[static_cast<std::size_t>(middle)];
     const float azimuth_rad = fast_atan2(p_m.y(), p_m.x()) - r.azimuth_rad - r.side_offset_m / rho_m;
-    const auto turned =
-        static_cast<std::uint32_t>(static_cast<std::int32_t>(std::lrint(azimuth_rad * bins_per_rad_)));
-    return {row, column_of_bin_[turned & (static_cast<std::uint32_t>(column_of_bin_.size()) - 1)]};
+    const auto bin = static_cast<std::uint32_t>(std::lrint(azimuth_rad * bins_per_rad_));
+    const int column = column_of_bin_[bin & (static_cast<std::uint32_t>(column_of_bin_.size()) - 1)];
+    Cell best;
+    float best_away_m = std::numeric_limits<float>::infinity();
+    const int last = std::min(middle + 1, row_count() - 1);
+    for (int row = std::max(middle - 1, 0); row <= last; ++row) {
+      const float cos_elevation = rows_[static_cast<std::size_t>(row)].cos_elevation;
+      const int same = same_direction(column, middle, row);
+      for (int beside = -1; beside <= 1; ++beside) {
+        const int c = wrapped(same + beside);
+        const float range = range_m(row, c);
+        const float distance_m = std::fabs(range * cos_elevation - rho_m);
+        if (!(range > 0) || !(distance_m < best_away_m)) continue;
+        best = {row, c};
+        best_away_m = distance_m;
+      }
+    }
+    return best;
   }
 
  private:

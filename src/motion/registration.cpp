@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "motion/surface_patches.h"
@@ -15,10 +16,9 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr double kInlierM = 0.1;
+constexpr float kInlierM = 0.1F;
 constexpr double kLeastInlierShare = 0.5;
 constexpr int kLeastInliers = 100;
-constexpr float kFarthestM = 1000;
 constexpr double kLeverArmM = 10;  // makes angles comparable with lengths
 // Of the weights' sum. Where the patches leave a direction open, the pose stays as it is.
 constexpr double kDamping = 1e-4;
@@ -29,66 +29,71 @@ struct Evidence {
   Matrix6 hessian = Matrix6::Zero();
   Vector6 gradient = Vector6::Zero();
   double weight = 0;
-  double cost_m2 = 0;
   int inliers = 0;
   double inlier_squares_m2 = 0;
 };
 
-// The reference's return nearest to a point among those in its direction; none: infinite distance.
-struct Match {
-  Eigen::Vector3f difference_m = Eigen::Vector3f::Zero();
-  bool found = false;
-};
-
-Match match(const GridRays& reference, const Eigen::Vector3f& p_m) {
-  const GridRays::Cell cell = reference.cell_towards(p_m);
-  Match best;
-  if (cell.row < 0) return best;
-  float best_m2 = 0;
-  for (int dc = -1; dc <= 1; ++dc) {
-    const int column = reference.wrapped(cell.column + dc);
-    const float range_m = reference.range_m(cell.row, column);
-    if (!(range_m > 0 && range_m < kFarthestM)) continue;
-    const Eigen::Vector3f difference_m = p_m - reference.point_m(cell.row, column);
-    const float m2 = difference_m.squaredNorm();
-    if (best.found && m2 >= best_m2) continue;
-    best = {difference_m, true};
-    best_m2 = m2;
+// Calls use(patch, its center moved, distance of the reference from its plane) where there is a reference.
+template <class Use>
+void for_each_match(const Pose& T_ref_cur, const GridRays& reference, std::span<const SurfacePatch> patches,
+                    const Use& use) {
+  const Eigen::Matrix3f rotation = T_ref_cur.linear().cast<float>();
+  const Eigen::Vector3f translation_m = T_ref_cur.translation().cast<float>();
+  for (const SurfacePatch& patch : patches) {
+    const Eigen::Vector3f p_m = rotation * patch.center_m + translation_m;
+    const GridRays::Cell cell = reference.return_near(p_m);
+    if (cell.row < 0) continue;
+    const Eigen::Vector3f normal = rotation * patch.normal;
+    use(p_m, normal, normal.dot(p_m - reference.point_m(cell.row, cell.column)));
   }
-  return best;
 }
 
 // Geman and McClure's kernel: a distance of `kernel_m` counts a quarter, what moves by itself nothing.
+float robust_share(float distance_m, float kernel_m) {
+  return kernel_m * kernel_m / (kernel_m * kernel_m + distance_m * distance_m);
+}
+
+// Sums in float: a step need not be right to more than a few digits.
 Evidence evidence_for(const Pose& T_ref_cur, const GridRays& reference, std::span<const SurfacePatch> patches,
-                      double kernel_m) {
-  const Eigen::Matrix3f rotation = T_ref_cur.linear().cast<float>();
-  const Eigen::Vector3f translation_m = T_ref_cur.translation().cast<float>();
-  const auto kernel_m2 = static_cast<float>(kernel_m * kernel_m);
+                      float kernel_m) {
   Evidence evidence;
-  for (const SurfacePatch& patch : patches) {
-    const Eigen::Vector3f p_m = rotation * patch.center_m + translation_m;
-    const Match found = match(reference, p_m);
-    if (!found.found) {
-      evidence.cost_m2 += kernel_m * kernel_m;
-      continue;
-    }
-    const Eigen::Vector3f normal = rotation * patch.normal;
-    const float distance_m = normal.dot(found.difference_m);
-    if (std::fabs(distance_m) < static_cast<float>(kInlierM)) {
-      ++evidence.inliers;
-      evidence.inlier_squares_m2 += static_cast<double>(distance_m * distance_m);
-    }
-    const float share = kernel_m2 / (kernel_m2 + distance_m * distance_m);
-    const double weight = static_cast<double>(share * share);
-    evidence.cost_m2 += static_cast<double>(distance_m * distance_m * share);
-    Vector6 jacobian;
-    jacobian << normal.cast<double>(), p_m.cross(normal).cast<double>();
-    evidence.hessian.selfadjointView<Eigen::Lower>().rankUpdate(jacobian, weight);
-    evidence.gradient += weight * static_cast<double>(distance_m) * jacobian;
-    evidence.weight += weight;
-  }
-  evidence.hessian = evidence.hessian.selfadjointView<Eigen::Lower>();
+  float hessian[6][6] = {}, gradient[6] = {};
+  for_each_match(T_ref_cur, reference, patches,
+                 [&](const Eigen::Vector3f& p_m, const Eigen::Vector3f& normal, float distance_m) {
+                   if (std::fabs(distance_m) < kInlierM) {
+                     ++evidence.inliers;
+                     evidence.inlier_squares_m2 += static_cast<double>(distance_m * distance_m);
+                   }
+                   const float share = robust_share(distance_m, kernel_m);
+                   const float weight = share * share;
+                   const Eigen::Vector3f turning = p_m.cross(normal);
+                   const float jacobian[6] = {normal.x(),  normal.y(),  normal.z(),
+                                              turning.x(), turning.y(), turning.z()};
+                   for (int i = 0; i < 6; ++i) {
+                     const float weighted = weight * jacobian[i];
+                     gradient[i] += distance_m * weighted;
+                     for (int j = 0; j < 6; ++j) hessian[i][j] += weighted * jacobian[j];
+                   }
+                   evidence.weight += static_cast<double>(weight);
+                 });
+  evidence.hessian = Eigen::Matrix<float, 6, 6>::Map(&hessian[0][0]).cast<double>();
+  evidence.gradient = Eigen::Matrix<float, 6, 1>::Map(gradient).cast<double>();
   return evidence;
+}
+
+// Mean cost of those that match anything: the farther away, the fewer do, which says nothing. Infinite when
+// fewer than `least` do.
+double mean_cost_m2(const Pose& T_ref_cur, const GridRays& reference, std::span<const SurfacePatch> patches,
+                    float kernel_m, int least) {
+  int matches = 0;
+  float sum_m2 = 0;
+  for_each_match(T_ref_cur, reference, patches,
+                 [&](const Eigen::Vector3f&, const Eigen::Vector3f&, float distance_m) {
+                   ++matches;
+                   sum_m2 += distance_m * distance_m * robust_share(distance_m, kernel_m);
+                 });
+  if (matches == 0 || matches < least) return std::numeric_limits<double>::infinity();
+  return static_cast<double>(sum_m2) / matches;
 }
 
 Vector6 scale() {
@@ -139,18 +144,32 @@ Eigen::Vector3d weakest_translation(const Evidence& evidence) {
 
 // Steps find the nearest minimum only, and along a street there are many: looks for the best one along the
 // direction that is seen least.
-Pose best_along_weakest(const Pose& pose, const GridRays& reference, std::span<const SurfacePatch> patches) {
-  constexpr double kKernelM = 0.3, kStepM = 0.3, kReachM = 3;
-  const Evidence here = evidence_for(pose, reference, patches, kKernelM);
-  const Eigen::Vector3d direction = weakest_translation(here);
+Pose best_along_weakest(const Pose& pose, const Evidence& coarse_evidence, const GridRays& reference,
+                        std::span<const SurfacePatch> patches) {
+  constexpr float kKernelM = 0.3F;
+  constexpr int kSteps = 10;  // to each side
+  constexpr double kStepM = 0.3;
+  constexpr float kAcross = 0.3F;
+  constexpr std::size_t kMostPatches = 400;
+  const Eigen::Vector3d direction = weakest_translation(coarse_evidence);
   if (!direction.allFinite()) return pose;
-  double least_m2 = here.cost_m2;
+  // Surfaces along the direction say nothing.
+  const Eigen::Vector3f seen_from_patch = (pose.linear().transpose() * direction).cast<float>();
+  std::vector<SurfacePatch> across;
+  for (const SurfacePatch& patch : patches) {
+    if (across.size() < kMostPatches && std::fabs(patch.normal.dot(seen_from_patch)) > kAcross) {
+      across.push_back(patch);
+    }
+  }
+  const int least = static_cast<int>(across.size() / 2);
+  double least_m2 = mean_cost_m2(pose, reference, across, kKernelM, least);
   Pose best = pose;
-  for (double along_m = -kReachM; along_m <= kReachM; along_m += kStepM) {
+  for (int step = -kSteps; step <= kSteps; ++step) {
+    if (step == 0) continue;
     Pose candidate = pose;
-    candidate.translation() += along_m * direction;
-    const double cost_m2 = evidence_for(candidate, reference, patches, kKernelM).cost_m2;
-    if (cost_m2 >= least_m2) continue;
+    candidate.translation() += step * kStepM * direction;
+    const double cost_m2 = mean_cost_m2(candidate, reference, across, kKernelM, least);
+    if (!(cost_m2 < least_m2)) continue;
     least_m2 = cost_m2;
     best = candidate;
   }
@@ -158,14 +177,15 @@ Pose best_along_weakest(const Pose& pose, const GridRays& reference, std::span<c
 }
 
 // From one start: wide kernels first when it may be far off.
-Registration register_from(const Pose& start, std::span<const double> kernels_m, const GridRays& reference,
+Registration register_from(const Pose& start, std::span<const float> kernels_m, const GridRays& reference,
                            std::span<const SurfacePatch> patches, const RegistrationSettings& settings) {
-  constexpr double kFinestM = 0.1;
+  constexpr float kFinestM = 0.1F;
   const auto coarse =
       patches.first(std::min(patches.size(), static_cast<std::size_t>(std::max(0, settings.coarse_patches))));
   Pose pose = start;
-  for (const double kernel_m : kernels_m) {
-    if (kernel_m == 0.5) pose = best_along_weakest(pose, reference, coarse);
+  for (const float kernel_m : kernels_m) {
+    if (kernel_m == 0.5F)
+      pose = best_along_weakest(pose, evidence_for(pose, reference, coarse, kernel_m), reference, patches);
     for (int i = 0; i < 2; ++i) pose = moved(solve(evidence_for(pose, reference, coarse, kernel_m)), pose);
   }
   Evidence evidence = evidence_for(pose, reference, patches, kFinestM);
@@ -193,7 +213,7 @@ Registration register_from(const Pose& start, std::span<const double> kernels_m,
 
 Registration register_sweeps(const RangeGrid& reference, const RangeGrid& current,
                              const std::optional<Pose>& guess, const RegistrationSettings& settings) {
-  constexpr std::array<double, 4> kWideM = {2, 1, 0.5, 0.25};
+  constexpr std::array<float, 4> kWideM = {2, 1, 0.5F, 0.25F};
   const GridRays reference_rays(reference);
   const auto patches = find_surface_patches(GridRays(current), settings.patches);
   Registration result;

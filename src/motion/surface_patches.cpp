@@ -50,7 +50,8 @@ int facing_at_first_sight(const GridRays& sweep, int row, int column, int half_r
   const int above = sweep.same_direction(column, row, row - half_rows);
   const int below = sweep.same_direction(column, row, row + half_rows);
   const float left_m = sweep.range_m(row, left), right_m = sweep.range_m(row, right);
-  const float above_m = sweep.range_m(row - half_rows, above), below_m = sweep.range_m(row + half_rows, below);
+  const float above_m = sweep.range_m(row - half_rows, above),
+              below_m = sweep.range_m(row + half_rows, below);
   if (!(std::min({left_m, right_m, above_m, below_m}) > kNearestM)) return -1;
   // 1/r is linear along a line on a plane.
   const float bend_per_m = 2 / center_m - 1 / left_m - 1 / right_m;

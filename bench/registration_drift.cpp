@@ -1,0 +1,151 @@
+// registration_drift: how far the encoder's own registration drifts from true poses, and how long it takes,
+// beside PCL's point-to-plane ICP on the whole clouds.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <ctime>
+#include <exception>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "codec/measured_grid.h"
+#include "drift.h"
+#include "motion/registration.h"
+#include "pointreel/exit_code.h"
+#include "pointreel/simulator.h"
+#include "require.h"
+#include "sensor/projection.h"
+#include "sensor/sensor_estimator.h"
+#include "sweep_set.h"
+#ifdef POINTREEL_WITH_PCL
+#include "pcl_icp.h"
+#endif
+
+namespace pointreel {
+namespace {
+
+struct Arguments {
+  std::vector<std::string> folders;
+  int simulated_sweeps = 0;
+  double simulated_mps = 12;
+  bool with_pcl = true;
+};
+
+// Each sweep against the one before, on the grid that the encoder finds; the last motion is the guess.
+MotionTrack own_track(const std::vector<PointCloud>& sweeps, const RegistrationSettings& settings) {
+  MotionTrack track;
+  SensorEstimator estimator;
+  std::optional<MeasuredGrid> previous;
+  std::vector<float> previous_range_m;
+  std::optional<Pose> guess;
+  for (const PointCloud& sweep : sweeps) {
+    estimator.add(sweep);
+    if (!estimator.model()) throw std::runtime_error("no sensor grid found");
+    const GriddedSweep gridded = project(*estimator.model(), sweep);
+    MeasuredGrid current(*estimator.model(), gridded.grid);
+    auto range_m = ranges_by_cell(*estimator.model(), gridded);
+    if (previous) {
+      const std::clock_t begin = std::clock();
+      const Registration found =
+          register_sweeps(previous->with(previous_range_m), current.with(range_m), guess, settings);
+      track.cpu_ms.push_back(1000.0 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
+      track.T_previous_sweep.push_back(found.T_ref_cur);
+      guess.reset();
+      if (found.converged)
+        guess = found.T_ref_cur;
+      else
+        ++track.failures;
+    }
+    previous = std::move(current);
+    previous_range_m = std::move(range_m);
+  }
+  return track;
+}
+
+void print_row(const std::string& set, const std::string& method, const MotionTrack& track,
+               const std::vector<Pose>& truth) {
+  const Drift drift = drift_of(track, truth);
+  fmt::print("| {} | {} | {:.1f} | {:.2f} | {:.2f} | {:.2f} / {:.2f} | {:.2f} | {} |\n", set, method,
+             drift.path_m, drift.translation_percent, drift.rotation_deg_per_100m,
+             100 * drift.median_step_error_m, 100 * drift.largest_step_error_m, drift.median_cpu_ms,
+             track.failures);
+}
+
+void compare(const std::string& name, const std::vector<PointCloud>& sweeps, const std::vector<Pose>& truth,
+             bool with_pcl) {
+  print_row(name, "own", own_track(sweeps, {}), truth);
+  print_row(name, "own, quick", own_track(sweeps, kQuickRegistration), truth);
+#ifdef POINTREEL_WITH_PCL
+  if (!with_pcl) return;
+  for (const PclIcpSettings& settings : {PclIcpSettings{0.3, 1}, PclIcpSettings{0.1, 0.5}}) {
+    print_row(name, fmt::format("PCL, {} m voxels", settings.voxel_m), pcl_icp_track(sweeps, settings),
+              truth);
+  }
+#else
+  (void)with_pcl;
+#endif
+}
+
+// A simulated sweep begins ahead; poses of real drives are of the middle of a sweep, and so is what a whole
+// sweep tells.
+std::vector<Pose> poses_in_the_middle(const std::vector<Pose>& T_world_begin) {
+  std::vector<Pose> T_world_middle;
+  for (std::size_t i = 0; i + 1 < T_world_begin.size(); ++i) {
+    const TimedPose ends[] = {{0, T_world_begin[i]}, {1, T_world_begin[i + 1]}};
+    T_world_middle.push_back(interpolate_pose(ends, 0.5));
+  }
+  return T_world_middle;
+}
+
+void compare_simulated(const Arguments& arguments) {
+  SimulatorOptions options;
+  options.cruise_speed_mps = arguments.simulated_mps;
+  require(validate(options));
+  Simulator simulator(options);
+  std::vector<PointCloud> sweeps;
+  std::vector<Pose> T_world_begin;
+  for (int i = 0; i <= arguments.simulated_sweeps; ++i) {
+    SimulatedSweep sweep = simulator.next_sweep();
+    T_world_begin.push_back(sweep.T_world_sensor);
+    if (i < arguments.simulated_sweeps) sweeps.push_back(std::move(sweep.cloud));
+  }
+  compare(fmt::format("simulated, {} m/s", arguments.simulated_mps), sweeps,
+          poses_in_the_middle(T_world_begin), arguments.with_pcl);
+}
+
+void run(const Arguments& arguments) {
+  fmt::print(
+      "| drive | method | path m | translation % | rotation deg/100 m | step error cm, median / worst | "
+      "CPU ms per sweep | failures |\n|---|---|---|---|---|---|---|---|\n");
+  for (const std::string& folder : arguments.folders) {
+    const std::filesystem::path path(folder);
+    SweepSet set = load_sweep_set({folder}, (path / "poses.txt").string(), "", 0);
+    set.poses.resize(set.sweeps.size());
+    compare(path.filename().string(), set.sweeps, set.poses, arguments.with_pcl);
+  }
+  if (arguments.simulated_sweeps > 1) compare_simulated(arguments);
+}
+
+}  // namespace
+}  // namespace pointreel
+
+int main(int argc, char** argv) {
+  CLI::App app{"Registers each sweep of a drive against the one before and compares with the true poses."};
+  pointreel::Arguments arguments;
+  app.add_option("FOLDER", arguments.folders, "Folders of sweeps, with poses.txt (KITTI)");
+  app.add_option("--simulated", arguments.simulated_sweeps, "Sweeps of a simulated drive to do as well");
+  app.add_option("--speed", arguments.simulated_mps, "Its cruising speed in m/s")->capture_default_str();
+  app.add_flag("!--no-pcl", arguments.with_pcl, "Without PCL");
+  try {
+    app.parse(argc, argv);
+    pointreel::run(arguments);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? pointreel::kDone : pointreel::kWrongArguments;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "registration_drift: {}\n", error.what());
+    return pointreel::kFailed;
+  }
+  return pointreel::kDone;
+}

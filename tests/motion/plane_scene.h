@@ -1,0 +1,84 @@
+// A scene of planes, and what a spinning sensor with 32 rows sees of it while it stands still.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "motion/range_grid.h"
+#include "pointreel/motion.h"
+
+namespace pointreel {
+
+// Points with normal.dot(p) = distance_m.
+struct Plane {
+  Eigen::Vector3d normal;
+  double distance_m;
+};
+
+struct SceneView {
+  std::vector<GridRow> rows;
+  std::vector<double> column_azimuth_rad;
+  std::vector<float> range_m;
+  RangeGrid grid() const { return {rows, column_azimuth_rad, range_m}; }
+};
+
+inline SceneView view_of(const std::vector<Plane>& scene, const Pose& T_world_sensor) {
+  constexpr int kRows = 32, kColumns = 900;
+  constexpr double kFarthestM = 120;
+  SceneView view;
+  for (int r = 0; r < kRows; ++r) {
+    // Offsets and turned rows, as real sensors have them.
+    view.rows.push_back({std::tan((10.0 - r) * std::numbers::pi / 180), r % 2 == 0 ? 0.2 : 0.1, 0.1 * (r % 4),
+                         r % 2 == 0 ? 0.02 : -0.02});
+  }
+  for (int c = 0; c < kColumns; ++c) view.column_azimuth_rad.push_back(2 * std::numbers::pi * c / kColumns);
+  for (const GridRow& row : view.rows) {
+    for (const double column_rad : view.column_azimuth_rad) {
+      // Two points of the ray, far apart, give its direction; the side offset bends it a little.
+      const double azimuth_rad = column_rad + row.azimuth_rad;
+      const Eigen::Vector3d side(-std::sin(azimuth_rad), std::cos(azimuth_rad), 0);
+      const Eigen::Vector3d ahead(std::cos(azimuth_rad), std::sin(azimuth_rad), row.slope);
+      const Eigen::Vector3d begin = T_world_sensor * Eigen::Vector3d(row.side_offset_m * side +
+                                                                     row.offset_m * Eigen::Vector3d::UnitZ());
+      const Eigen::Vector3d along = T_world_sensor.linear() * ahead;
+      double nearest_m = std::numeric_limits<double>::infinity();  // as rho
+      for (const Plane& plane : scene) {
+        const double rho_m = (plane.distance_m - plane.normal.dot(begin)) / plane.normal.dot(along);
+        if (rho_m > 0.5 && rho_m < nearest_m) nearest_m = rho_m;
+      }
+      const double range_m = nearest_m * ahead.norm();
+      view.range_m.push_back(range_m < kFarthestM ? static_cast<float>(range_m) : 0);
+    }
+  }
+  return view;
+}
+
+inline std::vector<Plane> ground() {
+  return {{Eigen::Vector3d::UnitZ(), -1.8}};
+}
+// A street between two houses that never end.
+inline std::vector<Plane> tunnel() {
+  auto scene = ground();
+  scene.push_back({Eigen::Vector3d::UnitZ(), 4});
+  scene.push_back({Eigen::Vector3d::UnitY(), 6});
+  scene.push_back({Eigen::Vector3d::UnitY(), -5});
+  return scene;
+}
+inline std::vector<Plane> hall() {
+  auto scene = tunnel();
+  scene.push_back({Eigen::Vector3d::UnitX(), 25});
+  scene.push_back({Eigen::Vector3d(1, 0.2, 0).normalized(), -30});
+  return scene;
+}
+
+inline Pose pose_of(double forward_m, double left_m, double up_m, double yaw_deg) {
+  Pose pose = Pose::Identity();
+  pose.linear() =
+      Eigen::AngleAxisd(yaw_deg * std::numbers::pi / 180, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  pose.translation() << forward_m, left_m, up_m;
+  return pose;
+}
+
+}  // namespace pointreel
