@@ -17,11 +17,7 @@ class SweepAlignment {
                      const std::optional<Pose>& T_world_sensor) {
     const CodingGrid coding(model, grid);
     reference_.emplace(model, grid);
-    reference_m_.resize(image.range_m.size());
-    for (std::size_t row = 0; row < coding.rows(); ++row) {
-      for (std::size_t column = 0; column < coding.columns(); ++column)
-        reference_m_[row * coding.columns() + column] = image.range_m[coding.image_index(row, column)];
-    }
+    reference_m_ = coding.ranges_of_cells(image, 1);
     T_world_reference_ = T_world_sensor;
   }
   // After a sweep that the next one cannot follow on.

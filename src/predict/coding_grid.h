@@ -27,6 +27,8 @@ class CodingGrid {
 
   std::size_t rows() const { return rows_; }
   std::size_t columns() const { return columns_; }
+  // Columns by which a row is turned: below columns(), if there are any.
+  std::size_t shift(std::size_t row) const { return static_cast<std::size_t>(shifts_[row]); }
   GridImage empty_image() const {
     return {static_cast<int>(rows_), static_cast<int>(columns_), std::vector<float>(rows_ * columns_)};
   }
@@ -76,7 +78,6 @@ class CodingGrid {
 
  private:
   static std::ptrdiff_t offset(std::size_t index) { return static_cast<std::ptrdiff_t>(index); }
-  std::size_t shift(std::size_t row) const { return static_cast<std::size_t>(shifts_[row]); }
 
   std::size_t rows_, columns_;
   std::vector<std::int32_t> shifts_;

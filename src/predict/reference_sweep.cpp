@@ -1,5 +1,7 @@
 #include "predict/reference_sweep.h"
 
+#include <algorithm>
+
 #include "base/parallel.h"
 #include "predict/coding_grid.h"
 #include "sensor/ray_table.h"
@@ -16,14 +18,17 @@ ReferenceSweep reference_from(const SensorModel& model, const SweepGrid& grid, s
                            {range_m.begin(), range_m.end()}, {}, {}, {}, grid};
   for (auto* axis : {&reference.x_m, &reference.y_m, &reference.z_m}) axis->resize(range_m.size());
   parallel_for(coding.rows(), threads, [&](std::size_t row) {
+    const auto first = static_cast<std::ptrdiff_t>(row * coding.columns());
+    const auto end = first + static_cast<std::ptrdiff_t>(coding.columns());
+    const auto turned = first + static_cast<std::ptrdiff_t>(coding.shift(row));
     std::vector<float> row_range_m(coding.columns());
+    std::rotate_copy(range_m.begin() + first, range_m.begin() + turned, range_m.begin() + end, row_range_m.begin());
     std::vector<Point3f> positions(coding.columns());
-    for (std::size_t column = 0; column < coding.columns(); ++column)
-      row_range_m[column] = range_m[coding.image_index(row, column)];
     rays.positions_of_row(row, row_range_m, positions);
+    CodingGrid::Finder image_index(coding);
     for (std::size_t column = 0; column < coding.columns(); ++column) {
       if (!(row_range_m[column] > 0)) continue;
-      const std::size_t cell = coding.image_index(row, column);
+      const std::size_t cell = image_index(row * coding.columns() + column);
       reference.x_m[cell] = positions[column].x;
       reference.y_m[cell] = positions[column].y;
       reference.z_m[cell] = positions[column].z;

@@ -46,11 +46,15 @@ class Warp {
         finder_(grid),
         points_(reference.range_m.size()),
         image_{static_cast<int>(coding_.rows()), static_cast<int>(coding_.columns()), {}, {}} {
+    // The inverse: p_cur = R^T (p_ref - t).
+    const Eigen::Matrix3d r = T_ref_cur.linear();
+    const Eigen::Vector3d t = T_ref_cur.translation();
     for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) rotation_[3 * i + j] = static_cast<float>(T_cur_ref.linear()(i, j));
-      translation_m_[i] = static_cast<float>(T_cur_ref.translation()(i));
+      for (int j = 0; j < 3; ++j) rotation_[static_cast<std::size_t>(3 * i + j)] = static_cast<float>(r(j, i));
+      translation_m_[static_cast<std::size_t>(i)] =
+          static_cast<float>(-((r(0, i) * t(0) + r(1, i) * t(1)) + r(2, i) * t(2)));
     }
-    for (std::size_t r = 0; r < rows_.size(); ++r) shift_.push_back(static_cast<float>(coding_.image_index(r, 0) - r * coding_.columns()));
+    for (std::size_t row = 0; row < rows_.size(); ++row) shift_.push_back(static_cast<float>(coding_.shift(row)));
   }
 
   ReferenceImage run(int threads) {
