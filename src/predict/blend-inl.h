@@ -47,6 +47,7 @@ struct BlendedProposals {
   TurnedLanes<kExperts / 4> inverse_scale;  // sqrt(floor / mean squared error) / step
   alignas(32) float blend_m[8];
   alignas(32) std::int32_t error_class[8];
+  alignas(32) std::int32_t spread_class[8];  // the same for how far the proposals lie from the blend
 
   POINTREEL_INLINE BlendedProposals() {}
 };
@@ -78,7 +79,7 @@ HWY_NOINLINE void blend(const ErrorPlanes<kExperts>& errors, const Neighbourhood
   const float* above_right = errors.at(step, 1, -1);
   const float* above2 = errors.at(step, 0, -2);
   Float8 weighted = all<8>(0), total = all<8>(0);
-  Float8 inverse_scale[kExperts];
+  Float8 inverse_scale[kExperts], weight[kExperts];
   for (std::size_t k = 0; k < kExperts; ++k) {
     const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(k) * kPitch;
     const Float8 in_row = load<8>(left + at) * weights.left + load<8>(left2 + at) * weights.left2;
@@ -91,13 +92,19 @@ HWY_NOINLINE void blend(const ErrorPlanes<kExperts>& errors, const Neighbourhood
     if (k == 0) {
       store(error_classes((1 / squared_step) * mean_square), blended.error_class);
     } else {
-      const Float8 weight = precision * precision;
-      weighted = weighted + weight * proposals.range_m[k];
-      total = total + weight;
+      weight[k] = precision * precision;
+      weighted = weighted + weight[k] * proposals.range_m[k];
+      total = total + weight[k];
     }
   }
   proposals.range_m[0] = weighted / total;
   store(proposals.range_m[0], blended.blend_m);
+  Float8 spread = all<8>(0);
+  for (std::size_t k = 1; k < kExperts; ++k) {
+    const Float8 away_m = proposals.range_m[k] - proposals.range_m[0];
+    spread = spread + weight[k] * (away_m * away_m);
+  }
+  store(error_classes((1 / squared_step) * (spread / total)), blended.spread_class);
   for (std::size_t g = 0; g < kExperts / 4; ++g) {
     const Float8* r = &proposals.range_m[4 * g];
     const Float8* s = &inverse_scale[4 * g];

@@ -66,7 +66,7 @@ class RangeModel {
     const Mixture<kExperts> mixture(state_.mixture, blended_, cell);
     const float blend_m = blended_.blend_m[cell];
     const float origin_m = on_lattice_ ? on_lattice(blend_m, lattice_phase_m_[cell]) : blend_m;
-    const StepContext context = contexts_.of(cell, row, blended_.error_class[cell]);
+    const StepContext context = contexts_.of(cell, row, blended_.error_class[cell], blended_.spread_class[cell]);
     const std::int32_t wanted = Coder::kDecodes ? 0 : rounded((range_m - origin_m) / step_m);
     StepCoder<Coder, Ingredients, kExperts> step_coder(coder, state_.steps, mixture, context, origin_m, step_m);
     const std::int32_t steps = step_coder.code(wanted);

@@ -36,13 +36,15 @@ struct StepModels {
   static constexpr std::size_t kAvailabilities = 4;
 
   std::array<CountedBit, kActivities * kErrors> zero_by_activity;
+  std::array<CountedBit, kErrors * kErrors> zero_by_spread;  // of the proposals
   std::array<CountedBit, kRows * kAvailabilities> zero_by_row;
   std::array<CountedBit, kSigns> sign_by_signs;
   std::array<CountedBit, kRows * kAvailabilities> sign_by_row;
   std::array<CountedBit, kErrors * kUnarySteps> more_by_error;
-  std::array<MixerWeights<3>, kAvailabilities * kActivities> zero_mixers;
+  std::array<CountedBit, kErrors * kUnarySteps> more_by_spread;
+  std::array<MixerWeights<4>, kAvailabilities * kActivities> zero_mixers;
   std::array<MixerWeights<3>, kAvailabilities> sign_mixers;
-  std::array<MixerWeights<2>, kUnarySteps * 4> more_mixers;
+  std::array<MixerWeights<3>, kUnarySteps * 4> more_mixers;
 };
 
 struct RangeModelState {
@@ -59,10 +61,12 @@ void visit_range_state(State& state, std::size_t experts, Visitor& visitor) {
   }
   auto& steps = state.steps;
   for (auto& bit : steps.zero_by_activity) visitor.bit(bit);
+  for (auto& bit : steps.zero_by_spread) visitor.bit(bit);
   visitor.bits_by_row(steps.zero_by_row.data(), StepModels::kRows, StepModels::kAvailabilities);
   for (auto& bit : steps.sign_by_signs) visitor.bit(bit);
   visitor.bits_by_row(steps.sign_by_row.data(), StepModels::kRows, StepModels::kAvailabilities);
   for (auto& bit : steps.more_by_error) visitor.bit(bit);
+  for (auto& bit : steps.more_by_spread) visitor.bit(bit);
   const auto visit_weights = [&](auto& mixers) {
     for (auto& mixer : mixers) {
       for (auto& weight : mixer.weight) visitor.weight(weight);

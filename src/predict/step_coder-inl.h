@@ -129,6 +129,7 @@ class StepCoder {
     return code_mixed<Ingredients>(
         coder_, p,
         {&models_.zero_by_activity[at_.activity * StepModels::kErrors + at_.error],
+         &models_.zero_by_spread[at_.spread * StepModels::kErrors + at_.error],
          &models_.zero_by_row[at_.row * StepModels::kAvailabilities + at_.availability]},
         models_.zero_mixers[at_.activity * StepModels::kAvailabilities + at_.availability], zero);
   }
@@ -142,7 +143,8 @@ class StepCoder {
   POINTREEL_INLINE bool code_more(std::int32_t magnitude, float p, bool more) {
     const auto step = static_cast<std::size_t>(magnitude - 1);
     return code_mixed<Ingredients>(coder_, p,
-                                   {&models_.more_by_error[at_.error * StepModels::kUnarySteps + step]},
+                                   {&models_.more_by_error[at_.error * StepModels::kUnarySteps + step],
+                                    &models_.more_by_spread[at_.spread * StepModels::kUnarySteps + step]},
                                    models_.more_mixers[step * 4 + at_.activity / 4], more);
   }
 

@@ -25,7 +25,8 @@ struct StepContext {
   std::size_t activity;      // 0 to 15: the sizes of the steps around; the nearest two count twice
   std::size_t availability;  // of returns left and above
   std::size_t row;
-  std::size_t error;  // 0 to 15: the blend's recent error
+  std::size_t error;   // 0 to 15: the blend's recent error
+  std::size_t spread;  // 0 to 15: how far the proposals lie apart
 };
 
 // Of eight cells. `steps`: what was coded, clipped to +-kMostContextSteps; 0 where there is no return.
@@ -48,12 +49,16 @@ class StepContexts {
     store(has_left + has_above + has_above, availability_);
   }
 
-  POINTREEL_INLINE StepContext of(std::size_t cell, int row, std::int32_t error_class) const {
-    constexpr auto kLastError = static_cast<std::int32_t>(StepModels::kErrors) - 1;
+  POINTREEL_INLINE StepContext of(std::size_t cell, int row, std::int32_t error_class,
+                                  std::int32_t spread_class) const {
+    const auto sixteen = [](std::int32_t c) HWY_ATTR {
+      constexpr auto kLast = static_cast<std::int32_t>(StepModels::kErrors) - 1;
+      return static_cast<std::size_t>(std::clamp(c - 2, 0, kLast));
+    };
     return {static_cast<std::size_t>(signs_[cell]), static_cast<std::size_t>(activity_[cell]),
             static_cast<std::size_t>(availability_[cell]),
             std::min(static_cast<std::size_t>(row), StepModels::kRows - 1),
-            static_cast<std::size_t>(std::clamp(error_class - 2, 0, kLastError))};
+            sixteen(error_class), sixteen(spread_class)};
   }
 
  private:

@@ -11,7 +11,8 @@
 namespace pointreel {
 namespace {
 
-constexpr float kNearestM = 0.05F;  // from the axis: nearer points have no direction
+constexpr float kNearestM = 0.05F;   // from the axis: nearer points have no direction
+constexpr float kFarthestM = 1e5F;  // whatever a damaged pose says, numbers stay finite
 
 struct Row {
   float slope, offset_m, azimuth_turns, side_turns_m, range_per_rho;
@@ -27,15 +28,30 @@ std::vector<Row> rows_of(const SensorModel& model) {
   return rows;
 }
 
-// Where the reference's points fall in the image, in cells; NaN-free, row < 0: nowhere.
+// Where the reference's points fall in the image, in cells, and how the surface leans there. One row and one
+// column of empty points all around, so that neighbours need no borders.
 struct WarpedPoints {
-  std::vector<float> row, column;       // between cells
-  std::vector<float> inverse_rho;       // 1 / distance from the axis: linear along a plane
-  std::vector<std::int32_t> nearest_row;
+  std::size_t stride;
+  std::vector<float> row, column;      // between cells
+  std::vector<float> inverse_rho;      // 1 / distance from the axis: linear along a plane; 0: no point
+  std::vector<float> range_m;          // of the reference; 0: no point
+  std::vector<float> per_column, per_row;  // slope of inverse_rho
+  std::vector<std::int32_t> sides;         // neighbours on the same surface: kRight and so on
 
-  explicit WarpedPoints(std::size_t count)
-      : row(count, -1), column(count), inverse_rho(count), nearest_row(count, -1) {}
+  WarpedPoints(int rows, int columns)
+      : stride(static_cast<std::size_t>(columns) + 2),
+        row(stride * (static_cast<std::size_t>(rows) + 2)),
+        column(row.size()),
+        inverse_rho(row.size()),
+        range_m(row.size()),
+        per_column(row.size()),
+        per_row(row.size()),
+        sides(row.size()) {}
+  std::size_t index(int r, int c) const {
+    return static_cast<std::size_t>(r + 1) * stride + static_cast<std::size_t>(c + 1);
+  }
 };
+constexpr std::int32_t kRight = 1, kLeft = 2, kBelow = 4, kAbove = 8;
 
 class Warp {
  public:
@@ -44,7 +60,7 @@ class Warp {
         rows_(rows_of(model)),
         coding_(model, grid),
         finder_(grid),
-        points_(reference.range_m.size()),
+        points_(reference.rows, reference.columns),
         image_{static_cast<int>(coding_.rows()), static_cast<int>(coding_.columns()), {}, {}} {
     // The inverse: p_cur = R^T (p_ref - t).
     const Eigen::Matrix3d r = T_ref_cur.linear();
@@ -58,16 +74,17 @@ class Warp {
   }
 
   ReferenceImage run(int threads) {
-    parallel_for(static_cast<std::size_t>(reference_.rows), threads, [&](std::size_t row) { move_row(static_cast<int>(row)); });
+    const auto reference_rows = static_cast<std::size_t>(reference_.rows);
+    parallel_for(reference_rows, threads, [&](std::size_t row) { move_row(static_cast<int>(row)); });
+    parallel_for(reference_rows, threads, [&](std::size_t row) { find_slopes(static_cast<int>(row)); });
     const std::size_t cells = static_cast<std::size_t>(image_.rows) * static_cast<std::size_t>(image_.columns);
     image_.range_m.assign(cells, 0);
     image_.hits.assign(cells, 0);
     weight_.assign(cells, 0);
-    for (int row = 0; row < reference_.rows; ++row) {
-      for (int column = 0; column < reference_.columns; ++column) render(row, column);
-    }
+    for_each_point([&](std::size_t point) { render_nearest(point); });
+    for_each_point([&](std::size_t point) { render_holes(point); });
     for (std::size_t cell = 0; cell < cells; ++cell) {
-      if (weight_[cell] > 0) image_.range_m[cell] = image_.range_m[cell] / weight_[cell];
+      image_.range_m[cell] = weight_[cell] > 0 ? image_.range_m[cell] / weight_[cell] : 0.0F;
     }
     return std::move(image_);
   }
@@ -76,6 +93,16 @@ class Warp {
   std::size_t index(int row, int column) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(reference_.columns) +
            static_cast<std::size_t>(column);
+  }
+
+  template <class Render>
+  void for_each_point(const Render& render) {
+    for (int row = 0; row < reference_.rows; ++row) {
+      const std::size_t first = points_.index(row, 0);
+      for (std::size_t point = first; point < first + static_cast<std::size_t>(reference_.columns); ++point) {
+        if (points_.range_m[point] > 0) render(point);
+      }
+    }
   }
 
   void move_row(int row) {
@@ -95,11 +122,22 @@ class Warp {
       azimuth_rad[c] = fast_atan2(py, px);
     }
     int last_row = row;
+    const std::size_t first_point = points_.index(row, 0);
     for (std::size_t c = 0; c < columns; ++c) {
-      if (!(reference_.range_m[first + c] > 0) || !(rho_m[c] > kNearestM)) continue;
+      if (!(reference_.range_m[first + c] > 0) || !(rho_m[c] > kNearestM && rho_m[c] < kFarthestM) ||
+          !(std::fabs(z_m[c]) < kFarthestM))
+        continue;
       last_row = nearest_row(z_m[c], rho_m[c], last_row);
-      place(first + c, last_row, z_m[c], rho_m[c], azimuth_rad[c]);
+      if (place(first_point + c, last_row, z_m[c], rho_m[c], azimuth_rad[c]))
+        points_.range_m[first_point + c] = reference_.range_m[first + c];
     }
+    // The reference goes around.
+    const auto wrap = [&](std::size_t to, std::size_t from) {
+      for (auto* values : {&points_.row, &points_.column, &points_.inverse_rho, &points_.range_m})
+        (*values)[to] = (*values)[from];
+    };
+    wrap(first_point - 1, first_point + columns - 1);
+    wrap(first_point + columns, first_point);
   }
 
   float height_above(int row, float z_m, float rho_m) const {
@@ -121,7 +159,8 @@ class Warp {
     return row;
   }
 
-  void place(std::size_t point, int row, float z_m, float rho_m, float azimuth_rad) {
+  // False when no row looks there.
+  bool place(std::size_t point, int row, float z_m, float rho_m, float azimuth_rad) {
     constexpr float kMostBeyond = 0.6F;  // rows, past the first and the last
     const float above = height_above(row, z_m, rho_m);
     const int step = above > 0 ? -1 : 1;
@@ -133,7 +172,7 @@ class Warp {
       const float spacing = std::fabs(height_above(to, z_m, rho_m) - height_above(from, z_m, rho_m));
       beside = spacing > 1e-4F ? std::fabs(above) / spacing : 0;
     }
-    if (!inside && beside > kMostBeyond) return;
+    if (!inside && beside > kMostBeyond) return false;
     beside = beside < 1 ? beside : 1;
     const Row& at = rows_[static_cast<std::size_t>(row)];
     float turn = azimuth_rad * static_cast<float>(1 / (2 * kPi)) - at.azimuth_turns - at.side_turns_m / rho_m;
@@ -142,100 +181,135 @@ class Warp {
     points_.row[point] = static_cast<float>(row) + static_cast<float>(step) * beside;
     points_.column[point] = finder_.position(turn) + shift_[static_cast<std::size_t>(row)];
     points_.inverse_rho[point] = 1 / rho_m;
-    points_.nearest_row[point] = row;
+    return true;
   }
 
-  bool same_surface(std::size_t a, std::size_t b) const {
-    if (points_.nearest_row[b] < 0) return false;
-    const float range_m = reference_.range_m[a];
-    return std::fabs(reference_.range_m[b] - range_m) <= 0.03F * range_m + 0.3F;
-  }
-  // Difference of image columns, across the seam.
-  float columns_between(float from, float to) const {
-    const auto columns = static_cast<float>(image_.columns);
-    float d = to - from;
-    if (d > 0.5F * columns) d -= columns;
-    if (d < -0.5F * columns) d += columns;
-    return d;
+  // Slopes of a row's points from their neighbours on the same surface; without branches, for SIMD code.
+  void find_slopes(int row) {
+    const std::size_t first = points_.index(row, 0);
+    const auto columns = static_cast<std::ptrdiff_t>(reference_.columns);
+    const auto stride = static_cast<std::ptrdiff_t>(points_.stride);
+    const auto width = static_cast<float>(image_.columns);
+    const float* r = &points_.row[first];
+    const float* c = &points_.column[first];
+    const float* u = &points_.inverse_rho[first];
+    const float* range_m = &points_.range_m[first];
+    float* __restrict per_column = &points_.per_column[first];
+    float* __restrict per_row = &points_.per_row[first];
+    std::int32_t* __restrict sides = &points_.sides[first];
+    struct Sum {
+      float rows, columns, u;
+    };
+    for (std::ptrdiff_t i = 0; i < columns; ++i) {
+      const float tolerance_m = 0.03F * range_m[i] + 0.3F;
+      const auto known = [&](std::ptrdiff_t to) {
+        const float other_m = range_m[i + to];
+        return (std::fabs(other_m - range_m[i]) <= tolerance_m) & (other_m > 0) ? 1.0F : 0.0F;
+      };
+      const auto add = [&](float weight, std::ptrdiff_t to, Sum& sum) {
+        float across = c[i + to] - c[i];
+        across -= across > 0.5F * width ? width : 0.0F;  // the seam
+        across += across < -0.5F * width ? width : 0.0F;
+        sum.rows += weight * (r[i + to] - r[i]);
+        sum.columns += weight * across;
+        sum.u += weight * (u[i + to] - u[i]);
+      };
+      const float right = known(1), left = known(-1), below = known(stride), above = known(-stride);
+      Sum beside{}, over{};
+      add(right, 1, beside);
+      add(-left, -1, beside);
+      add(below, stride, over);
+      add(-above, -stride, over);
+      const float determinant = beside.columns * over.rows - beside.rows * over.columns;
+      const bool both = determinant * determinant > 0.01F;
+      const bool only_beside = !both & (beside.columns * beside.columns > 0.04F);
+      const bool only_over = !both & !only_beside & (over.rows * over.rows > 0.04F);
+      const float per_determinant = 1 / (both ? determinant : 1.0F);
+      const float along_row = beside.u / (only_beside ? beside.columns : 1.0F);
+      const float along_column = over.u / (only_over ? over.rows : 1.0F);
+      per_column[i] = both ? (beside.u * over.rows - beside.rows * over.u) * per_determinant
+                                   : (only_beside ? along_row : 0.0F);
+      per_row[i] = both ? (beside.columns * over.u - beside.u * over.columns) * per_determinant
+                                : (only_over ? along_column : 0.0F);
+      sides[i] = static_cast<std::int32_t>(right * kRight + left * kLeft + below * kBelow + above * kAbove);
+    }
   }
 
-  // Into the four cells around a point.
-  void render(int row, int column) {
-    const std::size_t point = index(row, column);
-    const int near_row = points_.nearest_row[point];
-    if (near_row < 0) return;
+  // A point's place between four cells.
+  struct Place {
+    int row, column;               // of the upper left one
+    float row_part, column_part;   // from there, 0 to 1
+  };
+  Place place_of(std::size_t point) const {
     const float at_row = points_.row[point], at_column = points_.column[point];
+    const auto row = static_cast<std::int32_t>(at_row + 1) - 1;  // rounds down from -1 on
+    const auto column = static_cast<std::int32_t>(at_column + 1) - 1;
+    return {row, column, at_row - static_cast<float>(row), at_column - static_cast<float>(column)};
+  }
+  // Where the ray of a cell that is so far off the point meets its surface.
+  float range_beside(std::size_t point, int row, float rows_off, float columns_off) const {
     const float u = points_.inverse_rho[point];
-    // Neighbours on the same surface, which it leans towards.
-    struct Neighbour {
-      float rows = 0, columns = 0, u = 0;
-      bool known = false;
-    };
-    const auto neighbour = [&](int r, int c) {
-      c = c < 0 ? c + reference_.columns : c >= reference_.columns ? c - reference_.columns : c;
-      if (r < 0 || r >= reference_.rows) return Neighbour{};
-      const std::size_t other = index(r, c);
-      if (!same_surface(point, other)) return Neighbour{};
-      return Neighbour{points_.row[other] - at_row, columns_between(at_column, points_.column[other]),
-                       points_.inverse_rho[other] - u, true};
-    };
-    const Neighbour right = neighbour(row, column + 1), left = neighbour(row, column - 1);
-    const Neighbour below = neighbour(row + 1, column), above = neighbour(row - 1, column);
-    const Neighbour beside = right.known && left.known
-                                 ? Neighbour{right.rows - left.rows, right.columns - left.columns, right.u - left.u, true}
-                                 : (right.known ? right : left);
-    const Neighbour over = below.known && above.known
-                               ? Neighbour{below.rows - above.rows, below.columns - above.columns, below.u - above.u, true}
-                               : (below.known ? below : above);
-    float per_column = 0, per_row = 0;  // of u
-    const float determinant = beside.columns * over.rows - beside.rows * over.columns;
-    if (beside.known && over.known && determinant * determinant > 0.01F) {
-      per_column = (beside.u * over.rows - beside.rows * over.u) / determinant;
-      per_row = (beside.columns * over.u - beside.u * over.columns) / determinant;
-    } else if (beside.known && beside.columns * beside.columns > 0.04F) {
-      per_column = beside.u / beside.columns;
-    } else if (over.known && over.rows * over.rows > 0.04F) {
-      per_row = over.u / over.rows;
-    }
-
-    const auto first_column = static_cast<std::int32_t>(at_column + 1) - 1;  // rounds down from -1 on
-    const int other_row = at_row > static_cast<float>(near_row) ? near_row + 1 : near_row - 1;
-    const float right_part = at_column - static_cast<float>(first_column);
-    const bool nearer_right = right_part > 0.5F;
-    for (const int r : {near_row, other_row}) {
-      if (r < 0 || r >= image_.rows) continue;
-      const float rows_off = static_cast<float>(r) - at_row;
-      if (r == other_row && !(other_row > near_row ? below : above).known) continue;
-      for (const int side : {0, 1}) {
-        const bool nearest = (side == 1) == nearer_right;
-        if (!nearest && !(side == 1 ? right : left).known) continue;
-        const float columns_off = static_cast<float>(first_column + side) - at_column;
-        const float moved = u + (per_column * columns_off + per_row * rows_off);
-        const float limited = moved < 0.8F * u ? 0.8F * u : moved > 1.25F * u ? 1.25F * u : moved;
-        const float weight = (1.02F - std::fabs(columns_off)) * (1.02F - std::fabs(rows_off));
-        put(r, first_column + side, rows_[static_cast<std::size_t>(r)].range_per_rho / limited, weight,
-            nearest && r == near_row);
-      }
-    }
+    const float moved = u + (points_.per_row[point] * rows_off + points_.per_column[point] * columns_off);
+    const float least = 0.8F * u, most = 1.25F * u;
+    const float limited = moved < least ? least : moved > most ? most : moved;
+    return rows_[static_cast<std::size_t>(row)].range_per_rho / limited;
+  }
+  std::size_t cell_at(int row, int column) const {
+    // A turned row, and a last column of its own: less than two widths away.
+    if (column < 0) column += image_.columns;
+    if (column >= image_.columns) column -= image_.columns;
+    if (column >= image_.columns) column -= image_.columns;
+    return image_.index(row, column);
   }
 
-  void put(int row, int column, float range_m, float weight, bool nearest) {
-    while (column < 0) column += image_.columns;
-    while (column >= image_.columns) column -= image_.columns;
-    const std::size_t cell = image_.index(row, column);
+  // Into the nearest cell: before what is there, or as part of its mean when that is the same surface.
+  void render_nearest(std::size_t point) {
+    const Place at = place_of(point);
+    const int down = at.row_part > 0.5F ? 1 : 0, right = at.column_part > 0.5F ? 1 : 0;
+    const int row = at.row + down;
+    if (row < 0 || row >= image_.rows) return;
+    const float rows_off = static_cast<float>(down) - at.row_part;
+    const float columns_off = static_cast<float>(right) - at.column_part;
+    const float range_m = range_beside(point, row, rows_off, columns_off);
+    const float weight = (1.02F - std::fabs(rows_off)) * (1.02F - std::fabs(columns_off));
+    const std::size_t cell = cell_at(row, at.column + right);
     float& sum = image_.range_m[cell];
     float& total = weight_[cell];
-    std::uint8_t& hits = image_.hits[cell];
     constexpr float kSame = 0.03F;
-    if (total > 0 && range_m * total > (1 + kSame) * sum) return;  // behind
-    if (total > 0 && range_m * total < (1 - kSame) * sum) {
-      sum = 0;
-      total = 0;
-      hits = 0;
+    if (image_.hits[cell] != 0) {
+      if (range_m * total > (1 + kSame) * sum) return;  // behind
+      if (range_m * total >= (1 - kSame) * sum) {
+        sum += range_m * weight;
+        total += weight;
+        return;
+      }
     }
-    sum += range_m * weight;
-    total += weight;
-    hits = static_cast<std::uint8_t>(nearest || hits == kWarpedHit ? kWarpedHit : kWarpedFilled);
+    image_.hits[cell] = kWarpedHit;
+    sum = range_m * weight;
+    total = weight;
+  }
+
+  // Into the other three, where its surface goes on and no point is nearest.
+  void render_holes(std::size_t point) {
+    const std::int32_t sides = points_.sides[point];
+    const Place at = place_of(point);
+    for (int down = 0; down < 2; ++down) {
+      const int row = at.row + down;
+      const bool near_row = (at.row_part > 0.5F) == (down == 1);
+      if (row < 0 || row >= image_.rows || !(near_row || (sides & (down == 1 ? kBelow : kAbove)) != 0)) continue;
+      for (int right = 0; right < 2; ++right) {
+        const bool near_column = (at.column_part > 0.5F) == (right == 1);
+        if ((near_row && near_column) || !(near_column || (sides & (right == 1 ? kRight : kLeft)) != 0)) continue;
+        const std::size_t cell = cell_at(row, at.column + right);
+        if (image_.hits[cell] == kWarpedHit) continue;
+        const float range_m = range_beside(point, row, static_cast<float>(down) - at.row_part,
+                                           static_cast<float>(right) - at.column_part);
+        if (image_.hits[cell] == kWarpedFilled && !(range_m < image_.range_m[cell])) continue;
+        image_.hits[cell] = kWarpedFilled;
+        image_.range_m[cell] = range_m;
+        weight_[cell] = 1;
+      }
+    }
   }
 
   const ReferenceSweep& reference_;
