@@ -197,40 +197,40 @@ class Warp {
     float* __restrict per_column = &points_.per_column[first];
     float* __restrict per_row = &points_.per_row[first];
     std::int32_t* __restrict sides = &points_.sides[first];
-    struct Sum {
+    struct Step {
       float rows, columns, u;
     };
+    const auto known = [=](std::ptrdiff_t i, std::ptrdiff_t j) {
+      const float same = std::fabs(range_m[j] - range_m[i]) <= 0.03F * range_m[i] + 0.3F ? 1.0F : 0.0F;
+      return range_m[j] > 0 ? same : 0.0F;
+    };
+    const auto step = [=](float weight, std::ptrdiff_t i, std::ptrdiff_t j) {
+      float across = c[j] - c[i];
+      across -= across > 0.5F * width ? width : 0.0F;  // the seam
+      across += across < -0.5F * width ? width : 0.0F;
+      return Step{weight * (r[j] - r[i]), weight * across, weight * (u[j] - u[i])};
+    };
     for (std::ptrdiff_t i = 0; i < columns; ++i) {
-      const float tolerance_m = 0.03F * range_m[i] + 0.3F;
-      const auto known = [&](std::ptrdiff_t to) {
-        const float other_m = range_m[i + to];
-        return (std::fabs(other_m - range_m[i]) <= tolerance_m) & (other_m > 0) ? 1.0F : 0.0F;
-      };
-      const auto add = [&](float weight, std::ptrdiff_t to, Sum& sum) {
-        float across = c[i + to] - c[i];
-        across -= across > 0.5F * width ? width : 0.0F;  // the seam
-        across += across < -0.5F * width ? width : 0.0F;
-        sum.rows += weight * (r[i + to] - r[i]);
-        sum.columns += weight * across;
-        sum.u += weight * (u[i + to] - u[i]);
-      };
-      const float right = known(1), left = known(-1), below = known(stride), above = known(-stride);
-      Sum beside{}, over{};
-      add(right, 1, beside);
-      add(-left, -1, beside);
-      add(below, stride, over);
-      add(-above, -stride, over);
+      const float right = known(i, i + 1), left = known(i, i - 1);
+      const float below = known(i, i + stride), above = known(i, i - stride);
+      const Step to_right = step(right, i, i + 1), to_left = step(left, i, i - 1);
+      const Step down = step(below, i, i + stride), up = step(above, i, i - stride);
+      const Step beside = {to_right.rows - to_left.rows, to_right.columns - to_left.columns, to_right.u - to_left.u};
+      const Step over = {down.rows - up.rows, down.columns - up.columns, down.u - up.u};
       const float determinant = beside.columns * over.rows - beside.rows * over.columns;
-      const bool both = determinant * determinant > 0.01F;
-      const bool only_beside = !both & (beside.columns * beside.columns > 0.04F);
-      const bool only_over = !both & !only_beside & (over.rows * over.rows > 0.04F);
-      const float per_determinant = 1 / (both ? determinant : 1.0F);
-      const float along_row = beside.u / (only_beside ? beside.columns : 1.0F);
-      const float along_column = over.u / (only_over ? over.rows : 1.0F);
-      per_column[i] = both ? (beside.u * over.rows - beside.rows * over.u) * per_determinant
-                                   : (only_beside ? along_row : 0.0F);
-      per_row[i] = both ? (beside.columns * over.u - beside.u * over.columns) * per_determinant
-                                : (only_over ? along_column : 0.0F);
+      const float squared = determinant * determinant, width2 = beside.columns * beside.columns,
+                  height2 = over.rows * over.rows;
+      constexpr float kLeastDeterminant2 = 0.01F, kLeastStep2 = 0.04F;
+      const float per_determinant = 1 / (squared > kLeastDeterminant2 ? determinant : 1.0F);
+      const float along_row = beside.u / (width2 > kLeastStep2 ? beside.columns : 1.0F);
+      const float along_column = over.u / (height2 > kLeastStep2 ? over.rows : 1.0F);
+      const float only_row = width2 > kLeastStep2 ? along_row : 0.0F;
+      const float if_no_row = height2 > kLeastStep2 ? along_column : 0.0F;
+      const float only_column = width2 > kLeastStep2 ? 0.0F : if_no_row;
+      const float plane_column = (beside.u * over.rows - beside.rows * over.u) * per_determinant;
+      const float plane_row = (beside.columns * over.u - beside.u * over.columns) * per_determinant;
+      per_column[i] = squared > kLeastDeterminant2 ? plane_column : only_row;
+      per_row[i] = squared > kLeastDeterminant2 ? plane_row : only_column;
       sides[i] = static_cast<std::int32_t>(right * kRight + left * kLeft + below * kBelow + above * kAbove);
     }
   }
