@@ -16,7 +16,8 @@ constexpr std::size_t max_header_bytes = std::size_t{64} << 10;
 
 // Up to and with the line that starts with `last_keyword`.
 std::optional<std::size_t> find_header_end(std::string_view bytes, std::string_view last_keyword) {
-  for (std::size_t begin = 0, end = 0; (end = bytes.find('\n', begin)) != bytes.npos; begin = end + 1) {
+  for (std::size_t begin = 0, end = 0; (end = bytes.find('\n', begin)) != std::string_view::npos;
+       begin = end + 1) {
     if (bytes.substr(begin).starts_with(last_keyword)) return end + 1;
   }
   return {};

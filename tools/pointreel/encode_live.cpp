@@ -33,7 +33,7 @@ class LiveEncode {
       return {};
     }
     if (!output_) {
-      if (const auto begun = begin(sweep); !begun) return begun;
+      if (auto begun = begin(sweep); !begun) return begun;
     }
     const Stopwatch start;
     const auto packets = encoder_.encode(*std::move(sweep.cloud));
@@ -53,10 +53,10 @@ class LiveEncode {
     pending_ms_ += start.elapsed_ms();
     if (!packets) {
       leave_out(packets.error());
-    } else if (const auto written = write(*packets); !written) {
+    } else if (auto written = write(*packets); !written) {
       return written;
     }
-    const auto finished = output_->writer().finish();
+    auto finished = output_->writer().finish();
     totals_.bytes = output_->writer().bytes_written();
     return finished;
   }
@@ -67,7 +67,7 @@ class LiveEncode {
  private:
   // Not before there is a sweep: an existing output is given up only for a new one.
   Result<void> begin(const ArrivedSweep& sweep) {
-    if (const auto chosen = require_fields(fields_, *sweep.cloud, sweep.name); !chosen) return chosen;
+    if (auto chosen = require_fields(fields_, *sweep.cloud, sweep.name); !chosen) return chosen;
     auto output = ReelOutput::open(arguments_.output, encoder_.header());
     if (!output) return output.error();
     output_ = *std::move(output);
@@ -77,7 +77,7 @@ class LiveEncode {
 
   Result<void> write(const std::vector<Packet>& packets) {
     for (const Packet& packet : packets) {
-      if (const auto written = output_->writer().write(packet); !written) return written;
+      if (auto written = output_->writer().write(packet); !written) return written;
       const auto now = ArrivalClock::now();
       totals_.add(packet);
       totals_.bytes = output_->writer().bytes_written();

@@ -103,7 +103,7 @@ void FolderWatch::watch() {
 
 // False when the folder itself is gone.
 bool FolderWatch::take_events() {
-  alignas(inotify_event) std::array<char, 1 << 16> buffer;
+  alignas(inotify_event) std::array<char, 4096> buffer{};
   for (;;) {
     const ssize_t bytes = ::read(inotify_, buffer.data(), buffer.size());
     if (bytes <= 0) return true;  // no more for now

@@ -27,6 +27,8 @@ class FolderWatch final : public SweepSource {
   static Result<std::unique_ptr<FolderWatch>> create(const std::filesystem::path& folder,
                                                      std::optional<double> idle_s, const StopEvent& stop);
   ~FolderWatch() override;
+  FolderWatch(const FolderWatch&) = delete;
+  FolderWatch& operator=(const FolderWatch&) = delete;
   std::optional<ArrivedSweep> next() override;
 
  private:

@@ -19,6 +19,10 @@ namespace {
 constexpr std::size_t kMostWaiting = 4;
 constexpr std::size_t kChunkBytes = 1 << 20;
 
+std::string name_of_sweep(std::size_t number) {
+  return fmt::format("standard input, sweep {}", number);
+}
+
 }  // namespace
 
 SweepStream::SweepStream(const StopEvent& stop) : stop_(stop), thread_([this] { receive(); }) {}
@@ -59,8 +63,9 @@ void SweepStream::receive() {
     if (count < 0 && errno == EINTR) continue;
     const std::string name = name_of_sweep(received_count_);
     if (count < 0) {
-      const std::string reason = std::generic_category().message(errno);
-      push({{}, {}, Error{ErrorCode::io_error, name + ": cannot read: " + reason}, ArrivalClock::now()});
+      const std::string message =
+          fmt::format("{}: cannot read: {}", name, std::generic_category().message(errno));
+      push({{}, {}, Error{ErrorCode::io_error, message}, ArrivalClock::now()});
       break;
     }
     if (!cut_sweeps(buffer)) break;
@@ -99,10 +104,6 @@ void SweepStream::push(Received received) {
   changed_.wait(lock, [&] { return waiting_.size() < kMostWaiting || abandoned_; });
   waiting_.push_back(std::move(received));
   changed_.notify_all();
-}
-
-std::string SweepStream::name_of_sweep(std::size_t number) const {
-  return fmt::format("standard input, sweep {}", number);
 }
 
 }  // namespace pointreel

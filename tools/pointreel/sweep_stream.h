@@ -20,6 +20,8 @@ class SweepStream final : public SweepSource {
  public:
   explicit SweepStream(const StopEvent& stop);
   ~SweepStream() override;
+  SweepStream(const SweepStream&) = delete;
+  SweepStream& operator=(const SweepStream&) = delete;
   std::optional<ArrivedSweep> next() override;
 
  private:
@@ -32,7 +34,6 @@ class SweepStream final : public SweepSource {
   void receive();
   bool cut_sweeps(std::string& buffer);
   void push(Received received);
-  std::string name_of_sweep(std::size_t number) const;
 
   const StopEvent& stop_;
   std::size_t received_count_ = 0;
