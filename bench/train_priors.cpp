@@ -55,7 +55,7 @@ Means train(const std::vector<TrainingDrive>& drives, const CodingKind& kind, fl
             encode_band({kind, quantiser, &reference}, band, image, running);
             if (!counts) continue;
             means.ranges.start_visit();
-            visit_range_state(running.ranges, experts_of(kind), means.ranges);
+            visit_range_state(running.ranges, kind, means.ranges);
             means.mask.start_visit();
             visit_hit_mask_state(running.mask, means.mask);
           }
@@ -77,14 +77,15 @@ void train_all(const std::vector<TrainingDrive>& drives) {
   const struct {
     const char* name;
     CodingKind kind;
-  } kinds[] = {{"Key", {false, Effort::balanced}},
+  } kinds[] = {{"Fast", {false, Effort::fast}},
+               {"Key", {false, Effort::balanced}},
                {"Predicted", {true, Effort::balanced}},
                {"PredictedMax", {true, Effort::max}}};
   for (const auto& [name, kind] : kinds) {
     for (std::size_t set = 0; set < kPriorSteps.size(); ++set) {
       const Means means = train(drives, kind, kPriorSteps[set]);
       means.ranges.print(fmt::format("k{}{}", name, set));
-      if (kPriorSteps[set] == kMaskStepM && kind.effort == Effort::balanced)
+      if (kPriorSteps[set] == kMaskStepM && kind.effort != Effort::max)
         means.mask.print(fmt::format("k{}Mask", name));
     }
   }
@@ -96,9 +97,11 @@ void train_all(const std::vector<TrainingDrive>& drives) {
   }
   fmt::print(
       "\n}}  // namespace\n\n"
-      "std::span<const std::int8_t> hit_mask_priors(bool predicted) {{\n"
-      "  return predicted ? std::span<const std::int8_t>(kPredictedMask) : kKeyMask;\n}}\n\n"
+      "std::span<const std::int8_t> hit_mask_priors(const CodingKind& kind) {{\n"
+      "  if (kind.effort == Effort::fast) return kFastMask;\n"
+      "  return kind.predicted ? std::span<const std::int8_t>(kPredictedMask) : kKeyMask;\n}}\n\n"
       "std::span<const std::int8_t> range_priors(const CodingKind& kind, std::size_t set) {{\n"
+      "  if (kind.effort == Effort::fast) return kFast[set];\n"
       "  if (!kind.predicted) return kKey[set];\n"
       "  return kind.effort == Effort::max ? kPredictedMax[set] : kPredicted[set];\n}}\n\n"
       "}}  // namespace pointreel\n");

@@ -62,8 +62,11 @@ class ReelReader {
   const StreamHeader& header() const { return header_; }
 
   // The next packet, or none at the end; a damaged packet ends the reel (ending() is cut_off, fault() says
-  // why).
+  // why), unless resume() finds a way on. Waits for no more of the stream than this packet.
   std::optional<Packet> read_packet();
+  // After a damaged packet: goes on at the next whole packet, or the index, behind it. False when there is
+  // none.
+  bool resume();
   ReelEnding ending() const { return ending_; }
   const std::optional<Error>& fault() const { return fault_; }
 
@@ -77,6 +80,7 @@ class ReelReader {
  private:
   ReelReader(std::istream& stream, std::string name) : stream_(&stream), name_(std::move(name)) {}
   std::vector<std::uint8_t> read_bytes(std::size_t count);
+  void unread(std::vector<std::uint8_t> bytes);
   void end_with(const Error& error);
   void end_at_index(std::vector<std::uint8_t> bytes, std::uint64_t index_offset);
   std::optional<std::vector<ReelIndexEntry>> stored_index();
@@ -86,6 +90,8 @@ class ReelReader {
   std::string name_;
   StreamHeader header_;
   std::uint64_t offset_ = 0;
+  std::vector<std::uint8_t> ahead_;  // from the stream, and put back: goes before what the stream has
+  std::size_t ahead_taken_ = 0;      // read once more
   ReelEnding ending_ = ReelEnding::open;
   std::optional<Error> fault_;
 };

@@ -46,7 +46,8 @@ class MixtureEncoder final : public Encoder::Implementation {
         threads_(threads),
         grid_options_{std::max(kLeastDeviationM, 2 * header.max_error_m), header.max_error_m, threads},
         estimator_(grid_options_),
-        temporal_(options.temporal) {}
+        // Registration and warping would take longer than all the rest.
+        temporal_(options.temporal && options.effort != Effort::fast) {}
 
   const StreamHeader& header() const override { return header_; }
 

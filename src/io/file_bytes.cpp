@@ -15,10 +15,6 @@
 namespace pointreel::io {
 namespace {
 
-// Far above any sweep (a 4 GiB KITTI file has 268 million points); keeps a wrong argument from eating all
-// memory.
-constexpr std::uintmax_t max_file_bytes = std::uintmax_t{4} << 30;
-
 class FileDescriptor {
  public:
   explicit FileDescriptor(int descriptor) : descriptor_(descriptor) {}

@@ -18,14 +18,14 @@ namespace pointreel {
 namespace HWY_NAMESPACE {
 
 // False when a decoder runs out of bytes. Two streams, each predicted from what both hold before the cell.
-template <class Ranges, bool kPredicted, class Coder>
+template <Effort kEffort, bool kPredicted, class Coder>
 bool code_band(Coder& mask_coder, Coder& range_coder, const BandSetting& setting, const Band& band,
                GridImage& image, BandState& state) {
   constexpr int kRows = Wavefront::kRows, kLag = Wavefront::kLag;
   const RangeQuantiser& quantiser = setting.quantiser;
   const int columns = image.columns;
-  HitMaskModel<kPredicted> mask(columns, state.mask);
-  Ranges ranges(columns, quantiser, state.ranges);
+  HitMaskModel<kEffort, kPredicted> mask(columns, state.mask);
+  RangeModel<kEffort, kPredicted> ranges(columns, setting, state.ranges);
   ReferencePlanes reference(kPredicted ? columns : 0);
   for (int first = 0; first < band.rows; first += kRows) {
     const int rows = std::min(kRows, band.rows - first);

@@ -11,7 +11,6 @@
 //
 #include "entropy/adaptive_models.h"
 #include "predict/band_coder-inl.h"
-#include "predict/range_config.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pointreel {
@@ -20,12 +19,14 @@ namespace HWY_NAMESPACE {
 template <class Coder>
 bool code(Coder& mask, Coder& ranges, const BandSetting& setting, const Band& band, GridImage& image,
           BandState& state) {
-  using Ingredients = AllIngredients;
-  if (!setting.kind.predicted)
-    return code_band<RangeModel<Ingredients, 16, false>, false>(mask, ranges, setting, band, image, state);
-  if (setting.kind.effort == Effort::max)
-    return code_band<RangeModel<Ingredients, 24, true>, true>(mask, ranges, setting, band, image, state);
-  return code_band<RangeModel<Ingredients, 16, true>, true>(mask, ranges, setting, band, image, state);
+  const CodingKind& kind = setting.kind;
+  if (kind.effort == Effort::fast)
+    return code_band<Effort::fast, false>(mask, ranges, setting, band, image, state);
+  if (!kind.predicted)
+    return code_band<Effort::balanced, false>(mask, ranges, setting, band, image, state);
+  if (kind.effort == Effort::balanced)
+    return code_band<Effort::balanced, true>(mask, ranges, setting, band, image, state);
+  return code_band<Effort::max, true>(mask, ranges, setting, band, image, state);
 }
 
 CodedBand encode(const BandSetting& setting, const Band& band, GridImage& image, BandState& state) {

@@ -10,6 +10,7 @@
 #include "predict/coding_kind.h"
 #include "predict/grid_image.h"
 #include "predict/hit_mask_state.h"
+#include "predict/range_config.h"
 #include "predict/range_quantiser.h"
 #include "predict/range_state.h"
 #include "predict/reference_image.h"
@@ -40,6 +41,7 @@ struct BandSetting {
   CodingKind kind;
   const RangeQuantiser& quantiser;
   const ReferenceImage* reference;  // of the image's size; for predicted frames only
+  Ingredients ingredients = {};
 };
 
 // Ranges in the band must be 0 or positive and within kMostRangeSteps steps; they are replaced by what the

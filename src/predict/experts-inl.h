@@ -20,20 +20,20 @@ namespace HWY_NAMESPACE {
 
 // The order of the lanes is part of the format. Lane 0 is left for the blend (blend-inl.h).
 enum KeyExpert : std::uint8_t {
-  kKeyLine2 = 1,     // the last two returns of the row go on, in inverse range
-  kKeyPlane = 2,     // local fits
-  kKeyLine = 3,
-  kKeyParallel = 4,
-  kKeyStep = 5,      // the step from above to above right, from the cell left
-  kKeyLeft = 6,      // ranges seen nearby: the surfaces that may go on here
-  kKeyAbove = 7,
-  kKeyAboveLeft = 8,
-  kKeyAboveRight = 9,
-  kKeyAboveRight2 = 10,
-  kKeyLeft2 = 11,
-  kKeyLeft3 = 12,
-  kKeyMeanLeft = 13,
-  kKeyEdge = 14,     // behind the last depth edges of the row
+  kKeyPlane = 1,  // local fits
+  kKeyLine = 2,
+  kKeyParallel = 3,
+  kKeyLeft = 4,  // ranges seen nearby: the surfaces that may go on here
+  kKeyAbove = 5,
+  kKeyAboveRight = 6,
+  kKeyEdge = 7,  // behind the last depth edge of the row
+  kKeyLine2 = 8,  // the last two returns of the row go on, in inverse range
+  kKeyStep = 9,   // the step from above to above right, from the cell left
+  kKeyAboveLeft = 10,
+  kKeyAboveRight2 = 11,
+  kKeyLeft2 = 12,
+  kKeyLeft3 = 13,
+  kKeyMeanLeft = 14,
   kKeyEarlierEdge = 15,
 };
 enum PredictedExpert : std::uint8_t {
@@ -113,28 +113,31 @@ struct Surroundings {
   POINTREEL_INLINE Float8 mean_left() const { return or_start(where(seen(left2), 0.5F * (left + left2))); }
 };
 
-HWY_NOINLINE Proposals<16> propose_for_key_frame(const Neighbourhood& cells, const RowMemory& memory) {
+template <std::size_t kExperts>
+HWY_NOINLINE Proposals<kExperts> propose_for_key_frame(const Neighbourhood& cells, const RowMemory& memory) {
   const Surroundings around(cells, memory, all<8>(0));
   const LocalFits fits = fit_locally(cells, around.start, around.above);
-  Proposals<16> proposals;
+  Proposals<kExperts> proposals;
   Float8* range_m = proposals.range_m;
   range_m[0] = around.start;
-  range_m[kKeyLine2] = around.line2();
   range_m[kKeyPlane] = around.if_likely(inverted(fits.plane));
   range_m[kKeyLine] = around.if_likely(inverted(fits.line));
   range_m[kKeyParallel] = around.if_likely(inverted(fits.parallel));
-  range_m[kKeyStep] = around.step_from_above();
   range_m[kKeyLeft] = around.start;
   range_m[kKeyAbove] = around.or_start(around.above);
-  range_m[kKeyAboveLeft] = around.or_start(around.above_left);
   range_m[kKeyAboveRight] = around.or_start(around.above_right);
-  range_m[kKeyAboveRight2] =
-      around.or_start(select(seen(around.above_right2), around.above_right2, around.above_right));
-  range_m[kKeyLeft2] = around.or_start(around.left2);
-  range_m[kKeyLeft3] = around.or_start(cells.range_m(-3));
-  range_m[kKeyMeanLeft] = around.mean_left();
   range_m[kKeyEdge] = around.or_start(memory.edge_m());
-  range_m[kKeyEarlierEdge] = around.or_start(memory.earlier_edge_m());
+  if constexpr (kExperts == 16) {
+    range_m[kKeyLine2] = around.line2();
+    range_m[kKeyStep] = around.step_from_above();
+    range_m[kKeyAboveLeft] = around.or_start(around.above_left);
+    range_m[kKeyAboveRight2] =
+        around.or_start(select(seen(around.above_right2), around.above_right2, around.above_right));
+    range_m[kKeyLeft2] = around.or_start(around.left2);
+    range_m[kKeyLeft3] = around.or_start(cells.range_m(-3));
+    range_m[kKeyMeanLeft] = around.mean_left();
+    range_m[kKeyEarlierEdge] = around.or_start(memory.earlier_edge_m());
+  }
   return proposals;
 }
 

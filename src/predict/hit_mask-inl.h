@@ -17,7 +17,7 @@ HWY_BEFORE_NAMESPACE();
 namespace pointreel {
 namespace HWY_NAMESPACE {
 
-template <bool kPredicted>
+template <Effort kEffort, bool kPredicted>
 class HitMaskModel {
  public:
   HitMaskModel(int columns, HitMaskState& state) : planes_(columns), state_(state) {}
@@ -37,7 +37,9 @@ class HitMaskModel {
   // Codes the bit of one of them; a decoder passes anything and gets it. `row`: in the band.
   template <class Coder>
   POINTREEL_INLINE bool code(Coder& coder, std::size_t cell, int row, bool hit) {
-    constexpr std::size_t kUsed = kPredicted ? std::size_t{HitMaskState::kContexts} : HitMaskState::kKeyContexts;
+    constexpr std::size_t kUsed = kEffort == Effort::fast ? HitMaskState::kFastContexts
+                                  : kPredicted            ? std::size_t{HitMaskState::kContexts}
+                                                          : HitMaskState::kKeyContexts;
     constexpr float kMixingRate = 1.F / 512;
     std::array<CountedBit*, kUsed> slots;
     std::array<float, kUsed> inputs;

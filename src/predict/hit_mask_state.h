@@ -16,6 +16,7 @@ struct HitMaskState {
   enum Context : std::uint8_t { kRange, kRuns, kRow, kEdges, kDensity, kReference, kAgreement, kContexts };
   static constexpr std::array<std::size_t, kContexts> kSlots = {768, 512, 8, 1024, 1024, 2048, 1024};
   static constexpr std::size_t kKeyContexts = kReference;
+  static constexpr std::size_t kFastContexts = kRow;
   static constexpr std::size_t kMixers = 32;
 
   explicit HitMaskState(std::size_t rows) {

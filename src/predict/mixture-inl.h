@@ -16,6 +16,7 @@
 #endif
 
 #include "predict/blend-inl.h"
+#include "predict/range_config.h"
 #include "predict/range_state.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -62,10 +63,8 @@ class Mixture {
   // probability by expert k and G+, G- at its borders:
   //   d log p / d log w_k = r_k - w_k,  r_k = w_k p_k / p
   //   d log p / d log (1/s_k) = r_k (z+ G'(z+) - z- G'(z-)) / p_k
-  template <class Ingredients>
-  HWY_NOINLINE void learn(const Border& lower, const Border& upper, MixtureState& state) const {
-    constexpr float kWeightRate = Ingredients::kLearnsWeights ? 0.1F : 0.F;
-    constexpr float kScaleRate = Ingredients::kLearnsScales ? 0.08F : 0.F;
+  HWY_NOINLINE void learn(const Border& lower, const Border& upper, const Ingredients& ingredients,
+                          MixtureState& state) const {
     const Lanes one = all<kExperts>(1);
     const Lanes p = larger(upper.signed_cdf - lower.signed_cdf, all<kExperts>(1e-9F));
     const Lanes slope = upper.slope - lower.slope;
@@ -73,11 +72,11 @@ class Mixture {
     const Lanes joint = weight_ * p;
     const Lanes responsibility = joint * all<kExperts>(1 / sum(joint));
     const Lanes weight = clamped(
-        weight_ * (one + kWeightRate * (responsibility - per_total_weight_ * weight_)), 1e-4F, 1e4F);
+        weight_ * (one + ingredients.weight_rate * (responsibility - per_total_weight_ * weight_)), 1e-4F, 1e4F);
     MixtureState::PerClass& per_class = state.classes[error_class_];
     store(weight, per_class.weight.data());
     per_class.per_total_weight = 1 / sum(weight);
-    store(clamped(learnt_inverse_scale_ * (one + kScaleRate * responsibility * steepness), 1e-4F, 1e3F),
+    store(clamped(learnt_inverse_scale_ * (one + ingredients.scale_rate * responsibility * steepness), 1e-4F, 1e3F),
           per_class.inverse_scale.data());
   }
 

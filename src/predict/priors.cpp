@@ -45,10 +45,10 @@ class PriorReader {
 
 BandState state_from_priors(const CodingKind& kind, float step_m, const Band& band) {
   BandState state{HitMaskState(static_cast<std::size_t>(band.rows)), {}};
-  PriorReader mask(hit_mask_priors(kind.predicted));
+  PriorReader mask(hit_mask_priors(kind));
   visit_hit_mask_state(state.mask, mask);
   PriorReader ranges(range_priors(kind, prior_set(step_m)));
-  visit_range_state(state.ranges, experts_of(kind), ranges);
+  visit_range_state(state.ranges, kind, ranges);
   for (MixtureState::PerClass& at : state.ranges.mixture.classes) {
     float total = 0;
     for (const float weight : at.weight) total += weight;

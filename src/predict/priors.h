@@ -32,12 +32,7 @@ inline constexpr int kPriorsPerWeight = 32;
 inline constexpr int kPriorsPerOctave = 8;
 
 // The tables (priors_data.cpp, generated).
-std::span<const std::int8_t> hit_mask_priors(bool predicted);
+std::span<const std::int8_t> hit_mask_priors(const CodingKind& kind);
 std::span<const std::int8_t> range_priors(const CodingKind& kind, std::size_t set);
-
-// Experts of a kind of frame.
-constexpr std::size_t experts_of(const CodingKind& kind) {
-  return kind.predicted && kind.effort == Effort::max ? 24 : 16;
-}
 
 }  // namespace pointreel

@@ -6,11 +6,11 @@
 
 namespace pointreel {
 
-struct AllIngredients {
-  static constexpr std::uint32_t kExpertsOff = 0;  // a bit per expert, which then proposes the first guess
-  static constexpr bool kLearnsWeights = true;     // of the mixture
-  static constexpr bool kLearnsScales = true;
-  static constexpr bool kSecondStage = true;
+struct Ingredients {
+  std::uint32_t experts_off = 0;  // a bit per expert, which then proposes the first guess
+  float weight_rate = 0.1F;       // how fast the mixture's weights and scales learn
+  float scale_rate = 0.08F;
+  bool second_stage = true;
 };
 
 }  // namespace pointreel

@@ -12,6 +12,7 @@
 #endif
 
 #include "predict/band_coding.h"
+#include "predict/direct_coder-inl.h"
 #include "predict/experts-inl.h"
 #include "predict/step_coder-inl.h"
 
@@ -19,12 +20,15 @@ HWY_BEFORE_NAMESPACE();
 namespace pointreel {
 namespace HWY_NAMESPACE {
 
-template <class Ingredients, std::size_t kExperts, bool kPredicted>
+template <Effort kEffort, bool kPredicted>
 class RangeModel {
  public:
-  RangeModel(int columns, const RangeQuantiser& quantiser, RangeModelState& state)
-      : step_m_(quantiser.step_m),
-        on_lattice_(quantiser.on_lattice()),
+  static constexpr std::size_t kExperts = experts_of({kPredicted, kEffort});
+
+  RangeModel(int columns, const BandSetting& setting, RangeModelState& state)
+      : step_m_(setting.quantiser.step_m),
+        on_lattice_(setting.quantiser.on_lattice()),
+        ingredients_(setting.ingredients),
         planes_(columns),
         errors_(columns),
         steps_(columns),
@@ -47,9 +51,9 @@ class RangeModel {
     if constexpr (kPredicted) {
       proposals_ = propose_for_predicted_frame<kExperts>(cells, memory_, ReferenceView(*reference, step));
     } else {
-      proposals_ = propose_for_key_frame(cells, memory_);
+      proposals_ = propose_for_key_frame<kExperts>(cells, memory_);
     }
-    if constexpr (Ingredients::kExpertsOff != 0) leave_out_experts();
+    if (ingredients_.experts_off != 0) leave_out_experts();
     blend<kExperts>(errors_, cells, step, step_m_, proposals_, blended_);
     contexts_ = StepContexts(steps_, cells, step);
     for (std::size_t i = 0; i < Wavefront::kRows; ++i) {
@@ -63,14 +67,20 @@ class RangeModel {
   template <class Coder>
   POINTREEL_INLINE float code(Coder& coder, std::size_t cell, int row, float range_m) {
     const float step_m = step_m_;
-    const Mixture<kExperts> mixture(state_.mixture, blended_, cell);
     const float blend_m = blended_.blend_m[cell];
     const float origin_m = on_lattice_ ? on_lattice(blend_m, lattice_phase_m_[cell]) : blend_m;
     const StepContext context = contexts_.of(cell, row, blended_.error_class[cell], blended_.spread_class[cell]);
     const std::int32_t wanted = Coder::kDecodes ? 0 : rounded((range_m - origin_m) / step_m);
-    StepCoder<Coder, Ingredients, kExperts> step_coder(coder, state_.steps, mixture, context, origin_m, step_m);
-    const std::int32_t steps = step_coder.code(wanted);
-    mixture.template learn<Ingredients>(step_coder.lower(), step_coder.upper(), state_.mixture);
+    std::int32_t steps;
+    if constexpr (kEffort == Effort::fast) {
+      steps = code_directly(coder, state_.direct, context, wanted);
+    } else {
+      const Mixture<kExperts> mixture(state_.mixture, blended_, cell);
+      StepCoder<Coder, kExperts> step_coder(coder, state_.steps, mixture, context, origin_m, step_m,
+                                            ingredients_.second_stage);
+      steps = step_coder.code(wanted);
+      mixture.learn(step_coder.lower(), step_coder.upper(), ingredients_, state_.mixture);
+    }
     const float decoded_m = origin_m + static_cast<float>(steps) * step_m;
     decoded_m_[cell] = decoded_m > kSmallestRangeM ? decoded_m : kSmallestRangeM;
     coded_steps_[cell] = steps < -kMostContextSteps ? -kMostContextSteps
@@ -106,12 +116,13 @@ class RangeModel {
   }
   void leave_out_experts() {
     for (std::size_t k = 0; k < kExperts; ++k) {
-      if ((Ingredients::kExpertsOff >> k & 1) != 0) proposals_.range_m[k] = proposals_.range_m[0];
+      if ((ingredients_.experts_off >> k & 1) != 0) proposals_.range_m[k] = proposals_.range_m[0];
     }
   }
 
   float step_m_;
   bool on_lattice_;
+  Ingredients ingredients_;
   RangePlanes planes_;
   ErrorPlanes<kExperts> errors_;
   SkewedPlane<std::int32_t> steps_;  // clipped

@@ -30,10 +30,10 @@ POINTREEL_INLINE Probability16 to_probability(float p) {
   return static_cast<Probability16>(static_cast<std::int32_t>(clamped(p * 65536, kLeast, kMost)));
 }
 
-template <class Ingredients, class Coder, std::size_t kModels>
-POINTREEL_INLINE bool code_mixed(Coder& coder, float p, CountedBit* const (&models)[kModels],
+template <class Coder, std::size_t kModels>
+POINTREEL_INLINE bool code_mixed(Coder& coder, bool second_stage, float p, CountedBit* const (&models)[kModels],
                            MixerWeights<kModels + 1>& mixer, bool bit) {
-  if constexpr (!Ingredients::kSecondStage) return coder.code_with(bit, to_probability(p));
+  if (!second_stage) return coder.code_with(bit, to_probability(p));
   constexpr std::uint32_t kSettledCount = 60;
   constexpr float kMixingRate = 1.F / 256;
   std::array<float, kModels + 1> inputs;
@@ -47,14 +47,20 @@ POINTREEL_INLINE bool code_mixed(Coder& coder, float p, CountedBit* const (&mode
 }
 
 // The questions about one cell.
-template <class Coder, class Ingredients, std::size_t kExperts>
+template <class Coder, std::size_t kExperts>
 class StepCoder {
  public:
   using Border = typename Mixture<kExperts>::Border;
 
   POINTREEL_INLINE StepCoder(Coder& coder, StepModels& models, const Mixture<kExperts>& mixture,
-                       const StepContext& at, float origin_m, float step_m)
-      : coder_(coder), models_(models), mixture_(mixture), at_(at), origin_m_(origin_m), step_m_(step_m) {}
+                       const StepContext& at, float origin_m, float step_m, bool second_stage)
+      : coder_(coder),
+        models_(models),
+        mixture_(mixture),
+        at_(at),
+        origin_m_(origin_m),
+        step_m_(step_m),
+        second_stage_(second_stage) {}
 
   // Codes `wanted` (ignored when decoding) and returns it. lower() and upper() are then the borders of its bin.
   POINTREEL_INLINE std::int32_t code(std::int32_t wanted) {
@@ -126,23 +132,23 @@ class StepCoder {
   }
 
   POINTREEL_INLINE bool code_zero(float p, bool zero) {
-    return code_mixed<Ingredients>(
-        coder_, p,
+    return code_mixed(
+        coder_, second_stage_, p,
         {&models_.zero_by_activity[at_.activity * StepModels::kErrors + at_.error],
          &models_.zero_by_spread[at_.spread * StepModels::kErrors + at_.error],
          &models_.zero_by_row[at_.row * StepModels::kAvailabilities + at_.availability]},
         models_.zero_mixers[at_.activity * StepModels::kAvailabilities + at_.availability], zero);
   }
   POINTREEL_INLINE bool code_sign(float p, bool down) {
-    return code_mixed<Ingredients>(
-        coder_, p,
+    return code_mixed(
+        coder_, second_stage_, p,
         {&models_.sign_by_signs[at_.signs],
          &models_.sign_by_row[at_.row * StepModels::kAvailabilities + at_.availability]},
         models_.sign_mixers[at_.availability], down);
   }
   POINTREEL_INLINE bool code_more(std::int32_t magnitude, float p, bool more) {
     const auto step = static_cast<std::size_t>(magnitude - 1);
-    return code_mixed<Ingredients>(coder_, p,
+    return code_mixed(coder_, second_stage_, p,
                                    {&models_.more_by_error[at_.error * StepModels::kUnarySteps + step],
                                     &models_.more_by_spread[at_.spread * StepModels::kUnarySteps + step]},
                                    models_.more_mixers[step * 4 + at_.activity / 4], more);
@@ -157,6 +163,7 @@ class StepCoder {
   const StepContext& at_;
   float origin_m_;
   float step_m_;
+  bool second_stage_;
 };
 
 }  // namespace HWY_NAMESPACE

@@ -4,14 +4,19 @@
 #include <istream>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "base/bytes.h"
 #include "codec/wire.h"
 #include "pointreel/reel.h"
+#include "reel/packet_search.h"
 #include "reel/reel_layout.h"
 
 namespace pointreel {
 namespace {
+
+// Small enough that a live stream of small packets is not held up by waiting for the rest of a chunk.
+constexpr std::size_t kChunkBytes = 4096;
 
 // Index and footer as ReelWriter::finish() leaves them, when checksum, sizes and place all agree.
 std::optional<std::vector<ReelIndexEntry>> parse_index(std::span<const std::uint8_t> bytes,
@@ -67,17 +72,47 @@ std::optional<Packet> ReelReader::read_packet() {
   const auto end = [&](Error error) {
     error.message = "packet at byte " + std::to_string(packet_offset) + ": " + error.message;
     end_with(error);
+    unread(std::move(bytes));
     return std::nullopt;
   };
   if (bytes.empty()) return end({ErrorCode::truncated, "the file ends here without an index"});
   const auto size = packet_size(bytes);
   if (!size) return end(size.error());
-  // Grown as bytes arrive, so that a damaged length cannot ask for memory that the file does not fill.
-  const std::vector<std::uint8_t> rest = read_bytes(*size - bytes.size());
-  bytes.insert(bytes.end(), rest.begin(), rest.end());
+  // Grown as bytes arrive, so that a damaged length cannot ask for memory that the file does not fill; nor
+  // may it make the reader of a live stream wait for bytes that no one will send.
+  PacketSearch search(1);
+  while (bytes.size() < *size) {
+    const auto more = read_bytes(std::min(kChunkBytes, *size - bytes.size()));
+    if (more.empty()) break;
+    bytes.insert(bytes.end(), more.begin(), more.end());
+    if (const auto next = search.find(bytes)) {
+      return end({ErrorCode::corrupt,
+                  "damaged, another one begins within it, at byte " + std::to_string(packet_offset + *next)});
+    }
+  }
   auto packet = parse_packet(bytes);
   if (!packet) return end(packet.error());
   return *std::move(packet);
+}
+
+bool ReelReader::resume() {
+  if (ending_ != ReelEnding::cut_off) return false;
+  const std::uint64_t begin = offset_;
+  std::vector<std::uint8_t> bytes = read_bytes(ahead_.size() - ahead_taken_);
+  // The packet at fault itself is none.
+  PacketSearch search(1);
+  std::optional<std::size_t> next = search.find(bytes);
+  while (!next) {
+    const auto more = read_bytes(kChunkBytes);
+    if (more.empty()) return false;
+    bytes.insert(bytes.end(), more.begin(), more.end());
+    next = search.find(bytes);
+  }
+  unread({bytes.begin() + static_cast<std::ptrdiff_t>(*next), bytes.end()});
+  offset_ = begin + *next;
+  ending_ = ReelEnding::open;
+  fault_.reset();
+  return true;
 }
 
 // Complete only if the index is whole and knows as many bytes of packets as were there: a packet that went
@@ -124,17 +159,28 @@ Result<void> ReelReader::seek(const ReelIndexEntry& entry) {
 }
 
 std::vector<std::uint8_t> ReelReader::read_bytes(std::size_t count) {
-  constexpr std::size_t kChunk = 1 << 20;
-  std::vector<std::uint8_t> bytes;
+  constexpr std::size_t kMostAtOnce = 1 << 20;
+  const auto ahead = std::span(std::as_const(ahead_)).subspan(ahead_taken_);
+  const auto put_back = ahead.first(std::min(count, ahead.size()));
+  std::vector<std::uint8_t> bytes(put_back.begin(), put_back.end());
+  ahead_taken_ += put_back.size();
   while (bytes.size() < count && *stream_) {
     const std::size_t before = bytes.size();
-    bytes.resize(before + std::min(kChunk, count - before));
+    bytes.resize(before + std::min(kMostAtOnce, count - before));
     stream_->read(reinterpret_cast<char*>(bytes.data() + before),
                   static_cast<std::streamsize>(bytes.size() - before));
     bytes.resize(before + static_cast<std::size_t>(stream_->gcount()));
   }
   offset_ += bytes.size();
   return bytes;
+}
+
+// Puts back what read_bytes gave last.
+void ReelReader::unread(std::vector<std::uint8_t> bytes) {
+  offset_ -= bytes.size();
+  bytes.insert(bytes.end(), ahead_.begin() + static_cast<std::ptrdiff_t>(ahead_taken_), ahead_.end());
+  ahead_ = std::move(bytes);
+  ahead_taken_ = 0;
 }
 
 void ReelReader::end_with(const Error& error) {
@@ -163,6 +209,8 @@ std::optional<std::vector<ReelIndexEntry>> ReelReader::stored_index() {
 
 bool ReelReader::rewind_to(std::uint64_t offset) {
   stream_->clear();
+  ahead_.clear();
+  ahead_taken_ = 0;
   stream_->seekg(static_cast<std::streamoff>(offset));
   offset_ = offset;
   ending_ = ReelEnding::open;

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+
+#include "sim/turn.h"
 
 namespace pointreel::sim {
 namespace {
 
 using Eigen::Vector2d;
 
-constexpr double two_pi = 2 * std::numbers::pi;
 // The lasers sit a little beside and above the sensor's origin, which also heaves.
 constexpr double origin_radius_m = 0.05;
 constexpr double origin_above_m = 0.25, origin_below_m = 0.05;

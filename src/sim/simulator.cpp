@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "sim/imu_model.h"
 #include "sim/random.h"
 #include "sim/return_model.h"
 #include "sim/scene.h"
 #include "sim/sensor_geometry.h"
+#include "sim/turn.h"
 #include "sim/vehicle_motion.h"
 
 namespace pointreel {
@@ -16,8 +16,6 @@ namespace {
 
 using namespace sim;
 using Eigen::Vector2d, Eigen::Vector3d;
-
-constexpr double two_pi = 2 * std::numbers::pi;
 
 // Which seed drives what.
 enum SeedKey : std::uint64_t { road_key, scene_key, motion_key, imu_key, firing_key, sweep_key };

@@ -62,12 +62,12 @@ class BlockBuilder {
   }
 
   void add_tree(double x_m, double lateral_m) {
-    const double trunk_m = random_.uniform(1.8, 2.8), crown_m = random_.uniform(2.5, 5);
+    const double trunk_m = random_.uniform(1.8, 2.8), foliage_m = random_.uniform(2.5, 5);
     const double trunk_width_m = random_.uniform(0.2, 0.5);
     add(Shape::cylinder, Material::wood, x_m, lateral_m, {trunk_width_m, trunk_width_m}, 0,
-        trunk_m + crown_m / 2);
-    add(Shape::foliage, Material::leaves, x_m, lateral_m, {crown_m, crown_m}, trunk_m,
-        trunk_m + crown_m * random_.uniform(0.9, 1.4));
+        trunk_m + foliage_m / 2);
+    add(Shape::foliage, Material::leaves, x_m, lateral_m, {foliage_m, foliage_m}, trunk_m,
+        trunk_m + foliage_m * random_.uniform(0.9, 1.4));
   }
 
   void add_bush(double x_m, double lateral_m) {

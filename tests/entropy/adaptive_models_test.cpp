@@ -11,14 +11,14 @@ namespace {
 
 constexpr std::int32_t kLargest = 1 << 29;  // what plane levels and range residuals can reach
 
-std::vector<std::uint8_t> encode(const std::vector<std::int32_t>& values) {
+std::vector<std::uint8_t> encode_values(const std::vector<std::int32_t>& values) {
   BitEncoder coder;
   AdaptiveInteger model;
   for (const std::int32_t value : values) model.code(coder, value);
   return coder.finish();
 }
 
-std::vector<std::int32_t> decode(const std::vector<std::uint8_t>& bytes, std::size_t count) {
+std::vector<std::int32_t> decode_values(const std::vector<std::uint8_t>& bytes, std::size_t count) {
   BitDecoder coder(bytes);
   AdaptiveInteger model;
   std::vector<std::int32_t> values;
@@ -37,13 +37,13 @@ TEST(AdaptiveInteger, BringsBackEverySmallValueAndTheBordersOfItsCodes) {
       }
     }
   }
-  EXPECT_EQ(decode(encode(values), values.size()), values);
+  EXPECT_EQ(decode_values(encode_values(values), values.size()), values);
 }
 
 RC_GTEST_PROP(AdaptiveInteger, BringsBackAnyValues, ()) {
   const auto values = *rc::gen::container<std::vector<std::int32_t>>(
       rc::gen::resize(rc::kNominalSize, rc::gen::inRange<std::int32_t>(-kLargest, kLargest + 1)));
-  RC_ASSERT(decode(encode(values), values.size()) == values);
+  RC_ASSERT(decode_values(encode_values(values), values.size()) == values);
 }
 
 TEST(AdaptiveInteger, AnyBytesGiveValuesWithinInt32) {
@@ -91,7 +91,7 @@ TEST(AdaptiveInteger, CodesAGeometricSourceNearItsEntropy) {
   }
   // A magnitude, and a sign wherever it is not zero.
   const double entropy = entropy_bits({kStop, 1 - kStop}) / kStop + (1 - kStop);
-  const double bits = 8.0 * static_cast<double>(encode(values).size()) / kCount;
+  const double bits = 8.0 * static_cast<double>(encode_values(values).size()) / kCount;
   EXPECT_LT(bits, 1.03 * entropy);
   EXPECT_GT(bits, 0.98 * entropy);
 }

@@ -72,6 +72,13 @@ inline Outcome decode_reel(const std::string& bytes) {
       reader->read_packet();
     }
   }
+  // And past every damage, as far as there are bytes.
+  std::istringstream again(bytes);
+  auto resumed = ReelReader::open(again, "hostile.reel");
+  do {
+    while (resumed->read_packet()) {
+    }
+  } while (resumed->resume());
   return outcome;
 }
 

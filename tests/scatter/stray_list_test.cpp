@@ -13,7 +13,7 @@
 namespace pointreel {
 namespace {
 
-std::size_t check(const std::vector<Stray>& strays, double max_error_m) {
+std::size_t check_strays(const std::vector<Stray>& strays, double max_error_m) {
   const std::size_t limit = strays.empty() ? 0 : strays.back().index + std::size_t{1};
   const auto bytes = encode_strays(strays, max_error_m);
   const auto decoded = decode_strays(bytes, max_error_m, limit);
@@ -36,7 +36,7 @@ std::size_t check(const std::vector<Stray>& strays, double max_error_m) {
 }
 
 TEST(StrayList, NoneTakeTwoBytes) {
-  EXPECT_LE(check({}, 0.02), 2u);
+  EXPECT_LE(check_strays({}, 0.02), 2u);
 }
 
 TEST(StrayList, MissingReturnsCostNextToNothing) {
@@ -45,7 +45,7 @@ TEST(StrayList, MissingReturnsCostNextToNothing) {
     for (const std::uint32_t stride : {1u, 7u}) {
       std::vector<Stray> strays;
       for (std::uint32_t i = 0; i < 20'000; ++i) strays.push_back({5 + i * stride, marker});
-      EXPECT_LT(8.0 * static_cast<double>(check(strays, 0.02)) / 20'000, 0.05);
+      EXPECT_LT(8.0 * static_cast<double>(check_strays(strays, 0.02)) / 20'000, 0.05);
     }
   }
 }
@@ -56,7 +56,7 @@ TEST(StrayList, MissingReturnsAmongOtherStraysCostFewBits) {
   for (std::uint32_t i = 0; i < 10'000; ++i) {
     strays.push_back({i, i % 100 == 0 ? Point3f{static_cast<float>(random() % 50), 2, 1} : Point3f{}});
   }
-  EXPECT_LT(8.0 * static_cast<double>(check(strays, 0.02)) / 10'000, 0.6);
+  EXPECT_LT(8.0 * static_cast<double>(check_strays(strays, 0.02)) / 10'000, 0.6);
 }
 
 RC_GTEST_PROP(StrayList, KeepsTheBoundOnAnyPoints, ()) {
@@ -68,7 +68,7 @@ RC_GTEST_PROP(StrayList, KeepsTheBoundOnAnyPoints, ()) {
     strays.push_back({index++, position});
     if (index % 4 == 0) strays.push_back({index++, position});
   }
-  check(strays, *rc::gen::element(0.0005, 0.02, 1.0));
+  check_strays(strays, *rc::gen::element(0.0005, 0.02, 1.0));
 }
 
 TEST(StrayList, SurvivesDamage) {

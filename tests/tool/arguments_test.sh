@@ -57,6 +57,11 @@ for option in --azimuth-step=1deg --elevation-step=1deg --tile=4 --residual-step
 done
 [[ ! -e a.reel ]] || fail "an output of wrong arguments"
 
+wrong "--idle goes with --follow only" encode drive -o a.reel --idle 1
+wrong "--follow takes one folder" encode --follow drive other -o a.reel
+wrong "--follow takes one folder" encode --follow - -o a.reel
+wrong "- for standard input goes with no other" encode - drive -o a.reel
+wrong "--poses and --imu go with files" "${planes[@]/drive/-}" --poses a.txt
 wrong "--json and -o -" encode drive -o - --json
 wrong "--frames: '3:1' is not A:B" decode a.reel -o out --frames 3:1
 wrong "--frames: 'x' is not A:B" decode a.reel -o out --frames x

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "base/parallel.h"
@@ -15,7 +16,9 @@
 #include "pointreel/console.h"
 #include "pointreel/exit_code.h"
 #include "pointreel/io.h"
+#include "pointreel/missing_frames.h"
 #include "pointreel/reel_input.h"
+#include "pointreel/stop_event.h"
 #include "pointreel/verbs.h"
 
 namespace pointreel {
@@ -63,8 +66,10 @@ Result<FrameRange> parse_frames(const std::string& text) {
 }
 
 struct Written {
+  explicit Written(const FrameRange& wanted) : missing(wanted.begin) {}
   std::uint64_t frames = 0, points = 0;
   bool lost_some = false;
+  MissingFrames missing;
 };
 
 class SweepFiles {
@@ -102,11 +107,36 @@ bool decode_batch(Decoder& decoder, std::span<const Packet> batch, const FrameRa
       print_error(files_written[i].error());
       return false;
     } else if (wanted.contains(sweeps[i]->frame)) {
+      written.missing.decoded(sweeps[i]->frame);
       ++written.frames;
       written.points += sweeps[i]->cloud.size();
     }
   }
   return true;
+}
+
+// All packets: of a file in batches that decode well in parallel, of a pipe one by one, as the sender may not
+// have the next one yet. Behind a damaged packet it goes on with the next whole one. False when writing
+// failed.
+bool decode_all(ReelReader& reader, bool live, Decoder& decoder, const FrameRange& wanted,
+                const SweepFiles& files, int threads, Written& written) {
+  PacketBatches batches(reader);
+  const auto next = [&] {
+    if (!live) return batches.next();
+    auto packet = reader.read_packet();
+    return packet ? std::vector<Packet>{*std::move(packet)} : std::vector<Packet>();
+  };
+  for (bool after_damage = false;; after_damage = true) {
+    for (auto batch = next(); !batch.empty(); batch = next()) {
+      if (after_damage) print_note(fmt::format("goes on with frame {}", batch.front().frame));
+      after_damage = false;
+      if (!decode_batch(decoder, batch, wanted, files, threads, written)) return false;
+    }
+    if (!reader.fault()) return true;
+    print_error(*reader.fault());
+    written.lost_some = true;
+    if (!reader.resume()) return true;
+  }
 }
 
 // Only the packets that the wanted frames need, found by the index; damaged ones are left out.
@@ -145,6 +175,10 @@ int run(const DecodeArguments& arguments) {
     print_error(*error);
     return kWrongArguments;
   }
+  const bool live = arguments.input == "-";
+  // Ctrl-C reaches both ends of a pipe: the first one is left to the sender, which ends the stream.
+  std::optional<StopEvent> senders_signals;
+  if (live) senders_signals.emplace();
   auto input = ReelInput::open(arguments.input);
   if (!input) {
     print_error(input.error());
@@ -165,17 +199,10 @@ int run(const DecodeArguments& arguments) {
 
   const int threads = resolve_threads(arguments.threads);
   const SweepFiles files(arguments.output, *format, arguments.force);
-  Written written;
+  Written written(*wanted);
   const Stopwatch start;
-  if (arguments.frames.empty() || arguments.input == "-") {
-    PacketBatches batches(reader);
-    for (auto batch = batches.next(); !batch.empty(); batch = batches.next()) {
-      if (!decode_batch(*decoder, batch, *wanted, files, threads, written)) return kFailed;
-    }
-    if (reader.fault()) {
-      print_error(*reader.fault());
-      written.lost_some = true;
-    }
+  if (arguments.frames.empty() || live) {
+    if (!decode_all(reader, live, *decoder, *wanted, files, threads, written)) return kFailed;
   } else {
     const auto packets = packets_for(reader, *wanted, written);
     if (!packets) {
@@ -191,11 +218,14 @@ int run(const DecodeArguments& arguments) {
                  fmt::format("--frames: {} has no frame in {}", arguments.input, arguments.frames)});
     return kFailed;
   }
+  const auto gaps = written.missing.gaps();
+  if (!gaps.empty()) print_error({ErrorCode::corrupt, "missing: frames " + describe_gaps(gaps)});
   const double sweeps_per_second = wall_s > 0 ? static_cast<double>(written.frames) / wall_s : 0;
   if (arguments.json) {
     const nlohmann::json report = {{"frames", written.frames},
                                    {"points", written.points},
                                    {"data_lost", written.lost_some},
+                                   {"missing_frames", gaps},  // [first, last] each
                                    {"sweeps_per_second_with_io", sweeps_per_second}};
     fmt::print("{}\n", report.dump(2));
   } else {
@@ -210,7 +240,9 @@ int run(const DecodeArguments& arguments) {
 Verb add_decode(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("decode", "Write the sweeps of a .reel as files");
   auto arguments = std::make_shared<DecodeArguments>();
-  verb->add_option("REEL", arguments->input, "The .reel; - for standard input")->required();
+  verb->add_option("REEL", arguments->input,
+                   "The .reel; - for standard input: each sweep is written as its packet comes")
+      ->required();
   verb->add_option("-o,--output", arguments->output, "Folder for the sweeps (000000.bin, ...)")->required();
   verb->add_option("--format", arguments->format, "kitti, nuscenes, pcd or ply")->capture_default_str();
   verb->add_option("--frames", arguments->frames, "Only frames A to B - 1, as A:B, A:, :B or A");

@@ -3,8 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <fstream>
-#include <iostream>
 #include <optional>
 
 #include "base/parallel.h"
@@ -12,11 +10,13 @@
 #include "common/stopwatch.h"
 #include "pointreel/console.h"
 #include "pointreel/encode_arguments.h"
+#include "pointreel/encode_live.h"
 #include "pointreel/encode_report.h"
 #include "pointreel/exit_code.h"
 #include "pointreel/field_choice.h"
 #include "pointreel/io.h"
 #include "pointreel/reel.h"
+#include "pointreel/reel_output.h"
 #include "pointreel/verbs.h"
 
 namespace pointreel {
@@ -115,6 +115,7 @@ int run(const EncodeArguments& arguments) {
     print_error({ErrorCode::invalid_argument, arguments.output + ": exists; -f overwrites it"});
     return kFailed;
   }
+  if (is_live(arguments)) return encode_live(arguments, *options, *encoder);
   const auto inputs = expand_inputs(arguments.inputs);
   if (!inputs) {
     print_error(inputs.error());
@@ -132,31 +133,23 @@ int run(const EncodeArguments& arguments) {
   }
 
   const Stopwatch start;
-  std::ofstream file;
-  if (!to_stdout) {
-    file.open(arguments.output, std::ios::binary);
-    if (!file) {
-      print_error({ErrorCode::io_error, arguments.output + ": cannot open for writing"});
-      return kFailed;
-    }
+  auto output = ReelOutput::open(arguments.output, encoder->header());
+  if (!output) {
+    print_error(output.error());
+    return kFailed;
   }
-  auto writer = ReelWriter::create(to_stdout ? std::cout : file, encoder->header());
+  ReelWriter& writer = (*output)->writer();
   EncodeTotals totals;
   const std::optional<Error> error =
-      writer ? encode_sweeps(*encoder, *writer, *inputs, *poses, resolve_threads(arguments.threads), totals)
-             : std::optional(writer.error());
+      encode_sweeps(*encoder, writer, *inputs, *poses, resolve_threads(arguments.threads), totals);
   if (error) print_error(*error);
   if (totals.frames == 0) {
     if (!to_stdout) std::filesystem::remove(arguments.output);
     return kFailed;
   }
-  totals.bytes = writer->bytes_written();
+  totals.bytes = writer.bytes_written();
   totals.wall_s = start.elapsed_ms() / 1000;
-  if (arguments.json) {
-    print_json(totals, encoder->header(), options->mixture.fields);
-  } else {
-    print_summary(totals, encoder->header(), options->mixture.fields, arguments.output);
-  }
+  print_report(totals, encoder->header(), options->mixture.fields, arguments.output, arguments.json);
   if (!error) return kDone;
   print_note(fmt::format("{} holds the {} sweeps before the fault", arguments.output, totals.frames));
   return kDataLoss;

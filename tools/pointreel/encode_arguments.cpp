@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <string_view>
 
 #include "pointreel/field_choice.h"
@@ -78,13 +79,43 @@ Result<EncoderOptions> planes_options(const EncodeArguments& arguments) {
   return options;
 }
 
+Result<void> check_live(const EncodeArguments& arguments) {
+  if (arguments.idle_s && !arguments.follow) {
+    return Error{ErrorCode::invalid_argument, "--idle goes with --follow only"};
+  }
+  if (!is_live(arguments)) return {};
+  if (arguments.inputs.size() != 1 || (arguments.follow && arguments.inputs.front() == "-")) {
+    return Error{ErrorCode::invalid_argument, arguments.follow
+                                                  ? "--follow takes one folder"
+                                                  : "INPUT: - for standard input goes with no other"};
+  }
+  if (!arguments.poses.empty() || !arguments.imu.empty()) {
+    return Error{ErrorCode::invalid_argument,
+                 "--poses and --imu go with files: they must be known for all sweeps beforehand"};
+  }
+  return {};
+}
+
 }  // namespace
 
+bool is_live(const EncodeArguments& arguments) {
+  return arguments.follow ||
+         std::find(arguments.inputs.begin(), arguments.inputs.end(), "-") != arguments.inputs.end();
+}
+
 void add_encode_arguments(CLI::App& verb, EncodeArguments& arguments) {
-  verb.add_option("INPUT", arguments.inputs,
-                  "Sweeps: files, folders or globs (KITTI .bin, nuScenes .pcd.bin, .pcd, .ply)")
+  verb.add_option(
+          "INPUT", arguments.inputs,
+          "Sweeps: files, folders or globs (KITTI .bin, nuScenes .pcd.bin, .pcd, .ply); - for standard "
+          "input: binary PCD or PLY files one after another, each encoded as it arrives")
       ->required();
   verb.add_option("-o,--output", arguments.output, "The .reel to write; - for standard output")->required();
+  verb.add_flag(
+      "--follow", arguments.follow,
+      "INPUT is a folder to watch: sweeps are encoded as they are completed in it, in the order of their "
+      "names, until Ctrl-C");
+  verb.add_option("--idle", arguments.idle_s, "Seconds without a new sweep that end --follow, too")
+      ->check(CLI::Range(0.0, 1e6));
   verb.add_option("--method", arguments.method,
                   "mixture: every point, within a bound; planes: the nearest point of each cell, on planes")
       ->check(CLI::IsMember({"mixture", "planes"}))
@@ -152,6 +183,7 @@ Result<EncoderOptions> encoder_options(const EncodeArguments& arguments) {
   const auto valid = mixture ? belongs_to_method(arguments.planes_only, "planes")
                              : belongs_to_method(arguments.mixture_only, "mixture");
   if (!valid) return valid.error();
+  if (const auto live = check_live(arguments); !live) return live.error();
   return mixture ? mixture_options(arguments) : planes_options(arguments);
 }
 

@@ -29,6 +29,8 @@ struct EncodeArguments {
   std::string poses;
   std::string imu;
 
+  bool follow = false;
+  std::optional<double> idle_s;
   int threads = 0;
   bool force = false;
   bool json = false;
@@ -36,6 +38,9 @@ struct EncodeArguments {
   // Options that were given though they belong to one method only.
   std::vector<const CLI::Option*> mixture_only, planes_only;
 };
+
+// Sweeps are taken as they arrive, instead of from files that are all there.
+bool is_live(const EncodeArguments& arguments);
 
 void add_encode_arguments(CLI::App& verb, EncodeArguments& arguments);
 

@@ -123,15 +123,20 @@ void print_mixture(std::FILE* out, const EncodeTotals& totals, const StreamHeade
              rates.per_point(totals.parts.field_bits));
 }
 
-}  // namespace
+nlohmann::json latency_json(const std::vector<double>& latency_ms) {
+  if (latency_ms.empty()) return nullptr;
+  return {{"p50", quantile(latency_ms, 0.5)},
+          {"p99", quantile(latency_ms, 0.99)},
+          {"max", quantile(latency_ms, 1)},
+          {"sweeps", latency_ms.size()}};
+}
 
-void EncodeTotals::add(const Packet& packet) {
-  ++frames;
-  points += packet.points_in;
-  points_out += packet.points_out;
-  non_finite += packet.non_finite;
-  scattered_sweeps += packet.statistics.scattered_bits > 0;
-  pointreel::add(parts, packet.statistics);
+void print_latency(std::FILE* out, const std::vector<double>& latency_ms) {
+  if (latency_ms.empty()) return;
+  fmt::print(
+      out,
+      "  latency         p50 {:.1f} ms, p99 {:.1f} ms, max {:.1f} ms from arrival to packet ({} sweeps)\n",
+      quantile(latency_ms, 0.5), quantile(latency_ms, 0.99), quantile(latency_ms, 1), latency_ms.size());
 }
 
 void print_json(const EncodeTotals& totals, const StreamHeader& header, const FieldSelection& fields) {
@@ -162,6 +167,7 @@ void print_json(const EncodeTotals& totals, const StreamHeader& header, const Fi
       {"bound_m", header.bound_m()},
       {"bound_kind", mixture ? "space" : "range"},
       {"fields_left_out", fields_left_out(totals, header, fields)}};
+  if (totals.live) json["latency_ms"] = latency_json(totals.latency_ms);
   json.update(mixture ? mixture_json(totals, header, fields, rates) : planes_json(totals));
   fmt::print("{}\n", json.dump(2));
 }
@@ -182,11 +188,31 @@ void print_summary(const EncodeTotals& totals, const StreamHeader& header, const
   fmt::print(out,
              "  time            {:.1f} ms per sweep (median), {:.1f} sweeps/s with reading and writing\n",
              quantile(totals.ms_per_frame, 0.5), static_cast<double>(totals.frames) / totals.wall_s);
+  if (totals.live) print_latency(out, totals.latency_ms);
   const auto left_out = fields_left_out(totals, header, fields);
   if (!left_out.empty()) {
     fmt::print(out, "  left out        {}{}\n", fmt::join(left_out, ", "),
                mixture ? "" : " (method planes carries geometry only)");
   }
+}
+
+}  // namespace
+
+void EncodeTotals::add(const Packet& packet) {
+  ++frames;
+  points += packet.points_in;
+  points_out += packet.points_out;
+  non_finite += packet.non_finite;
+  scattered_sweeps += packet.statistics.scattered_bits > 0;
+  pointreel::add(parts, packet.statistics);
+}
+
+void print_report(const EncodeTotals& totals, const StreamHeader& header, const FieldSelection& fields,
+                  const std::string& output, bool as_json) {
+  if (as_json)
+    print_json(totals, header, fields);
+  else
+    print_summary(totals, header, fields, output);
 }
 
 }  // namespace pointreel

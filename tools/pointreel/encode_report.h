@@ -14,16 +14,19 @@ struct EncodeTotals {
   std::uint64_t scattered_sweeps = 0;  // method mixture: without a sensor's grid
   FrameStatistics parts;
   std::vector<double> ms_per_frame;
+  bool live = false;  // sweeps came as they were measured:
+  std::vector<double>
+      latency_ms;  // from their arrival to their packet, of those that came during the encoding
   std::vector<std::string> fields;  // of the first sweep, kept or not
   double wall_s = 0;
 
   void add(const Packet& packet);
 };
 
-// `fields` as they were asked for, of method mixture.
-void print_json(const EncodeTotals& totals, const StreamHeader& header, const FieldSelection& fields);
-// To standard output, or, when the reel itself goes there (`output` is -), to the other stream.
-void print_summary(const EncodeTotals& totals, const StreamHeader& header, const FieldSelection& fields,
-                   const std::string& output);
+// `fields` as they were asked for, of method mixture. In words: to standard output, or, when the reel itself
+// goes there
+// (`output` is -), to the other stream.
+void print_report(const EncodeTotals& totals, const StreamHeader& header, const FieldSelection& fields,
+                  const std::string& output, bool as_json);
 
 }  // namespace pointreel

@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -50,10 +49,6 @@ Summary summarise(ReelReader& reader) {
     summary.key_frames += packet->kind == FrameKind::key;
   }
   return summary;
-}
-
-double degrees(double radians) {
-  return radians * 180 / std::numbers::pi;
 }
 
 const char* name_of(FrameKind kind) {

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
 #include <string_view>
 
@@ -15,6 +14,7 @@
 #include "pointreel/console.h"
 #include "pointreel/exit_code.h"
 #include "pointreel/io.h"
+#include "pointreel/units.h"
 #include "sensor/burst_sort.h"
 #include "sensor/diagnosis.h"
 #include "sensor/projection.h"
@@ -60,10 +60,6 @@ Result<SensorFindings> find_sensor(const std::vector<std::filesystem::path>& pat
   }
   findings.diagnosis = diagnose(*findings.model, gridded);
   return findings;
-}
-
-double degrees(double radians) {
-  return radians * 180 / std::numbers::pi;
 }
 
 struct Reason {

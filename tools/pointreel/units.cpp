@@ -47,6 +47,10 @@ Result<double> parse_angle_rad(std::string_view text) {
   return parse_quantity(text, kUnits, "an angle");
 }
 
+double degrees(double radians) {
+  return radians * 180 / std::numbers::pi;
+}
+
 std::string format_bytes(double bytes) {
   if (bytes < 1e3) return fmt::format("{:.0f} B", bytes);
   if (bytes < 1e6) return fmt::format("{:.1f} kB", bytes / 1e3);
