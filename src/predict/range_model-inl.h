@@ -12,7 +12,6 @@
 #endif
 
 #include "predict/band_coding.h"
-#include "predict/direct_coder-inl.h"
 #include "predict/experts-inl.h"
 #include "predict/step_coder-inl.h"
 
@@ -71,16 +70,11 @@ class RangeModel {
     const float origin_m = on_lattice_ ? on_lattice(blend_m, lattice_phase_m_[cell]) : blend_m;
     const StepContext context = contexts_.of(cell, row, blended_.error_class[cell], blended_.spread_class[cell]);
     const std::int32_t wanted = Coder::kDecodes ? 0 : rounded((range_m - origin_m) / step_m);
-    std::int32_t steps;
-    if constexpr (kEffort == Effort::fast) {
-      steps = code_directly(coder, state_.direct, context, wanted);
-    } else {
-      const Mixture<kExperts> mixture(state_.mixture, blended_, cell);
-      StepCoder<Coder, kExperts> step_coder(coder, state_.steps, mixture, context, origin_m, step_m,
-                                            ingredients_.second_stage);
-      steps = step_coder.code(wanted);
-      mixture.learn(step_coder.lower(), step_coder.upper(), ingredients_, state_.mixture);
-    }
+    const Mixture<kExperts> mixture(state_.mixture, blended_, cell);
+    StepCoder<Coder, kExperts> step_coder(coder, state_.steps, mixture, context, origin_m, step_m,
+                                          ingredients_.second_stage);
+    const std::int32_t steps = step_coder.code(wanted);
+    mixture.learn(step_coder.lower(), step_coder.upper(), ingredients_, state_.mixture);
     const float decoded_m = origin_m + static_cast<float>(steps) * step_m;
     decoded_m_[cell] = decoded_m > kSmallestRangeM ? decoded_m : kSmallestRangeM;
     coded_steps_[cell] = steps < -kMostContextSteps ? -kMostContextSteps

@@ -48,37 +48,14 @@ struct StepModels {
   std::array<MixerWeights<3>, kUnarySteps * 4> more_mixers;
 };
 
-// The same questions for effort `fast`, without a mixture.
-struct DirectModels {
-  static constexpr std::size_t kUnarySteps = 8;
-  static constexpr std::size_t kSpreads = StepModels::kErrors;
-  static constexpr std::size_t kPlaces = StepModels::kErrors * kSpreads;
-  static constexpr std::uint32_t kMostBits = 26;
-
-  std::array<CountedBit, kPlaces * StepModels::kActivities> zero;
-  std::array<CountedBit, StepModels::kSigns> sign;
-  std::array<CountedBit, kPlaces * kUnarySteps> more;
-  std::array<CountedBit, kMostBits> longer;
-};
-
-// `direct` for effort `fast`, the others for the others.
 struct RangeModelState {
   MixtureState mixture;
   StepModels steps;
-  DirectModels direct;
 };
 
 // Shows a visitor all that adapts, in the order of the tables of priors (priors.h).
 template <class State, class Visitor>
 void visit_range_state(State& state, const CodingKind& kind, Visitor& visitor) {
-  if (kind.effort == Effort::fast) {
-    auto& direct = state.direct;
-    for (auto& bit : direct.zero) visitor.bit(bit);
-    for (auto& bit : direct.sign) visitor.bit(bit);
-    for (auto& bit : direct.more) visitor.bit(bit);
-    for (auto& bit : direct.longer) visitor.bit(bit);
-    return;
-  }
   const std::size_t experts = experts_of(kind);
   for (auto& at : state.mixture.classes) {
     for (std::size_t k = 0; k < experts; ++k) visitor.logarithm(at.weight[k]);
