@@ -44,19 +44,19 @@ enum PredictedExpert : std::uint8_t {
   kPredictedAbove = 5,
   kPredictedAboveRight = 6,
   kPredictedEdge = 7,
-  kReferenceHere = 8,       // the warped reference's range
-  kReferenceShifted = 9,    // plus its mean difference to what is coded around
+  kReferenceHere = 8,      // the warped reference's range
+  kPredictedLeft2 = 9,
   kReferenceLeftStep = 10,  // its step from the cell left
-  kReferenceAboveStep = 11, // its step from the cell above
-  kReferenceRight = 12,     // its neighbours: what moved
+  kPredictedLine2 = 11,
+  kReferenceRight = 12,  // its neighbours: what moved
   kReferenceLeft = 13,
   kReferenceBelow = 14,
-  kReferenceMean = 15,      // mean of three cells, plus the mean difference
-  kPredictedLine2 = 16,
-  kPredictedStep = 17,
-  kPredictedAboveLeft = 18,
-  kPredictedAboveRight2 = 19,
-  kPredictedLeft2 = 20,
+  kReferenceMean = 15,  // mean of three cells, plus the mean difference to what is coded around
+  kReferenceShifted = 16,    // the cell itself, plus that difference
+  kReferenceAboveStep = 17,  // the step from the cell above
+  kPredictedStep = 18,
+  kPredictedAboveLeft = 19,
+  kPredictedAboveRight2 = 20,
   kPredictedLeft3 = 21,
   kPredictedMeanLeft = 22,
   kPredictedEarlierEdge = 23,
@@ -163,7 +163,6 @@ HWY_NOINLINE Proposals<kExperts> propose_for_predicted_frame(const Neighbourhood
                                                            const ReferenceView& reference) {
   const Float8 here = reference.range_m(0);
   const Float8 west = reference.range_m(-1), east = reference.range_m(1);
-  const Float8 north = reference.range_m(0, -1);
   const Surroundings around(cells, memory, here);
   const LocalFits fits = fit_locally(cells, around.start, around.above);
   const Float8 shift = mean_difference(cells, reference);
@@ -179,11 +178,10 @@ HWY_NOINLINE Proposals<kExperts> propose_for_predicted_frame(const Neighbourhood
   range_m[kPredictedAboveRight] = around.or_start(around.above_right);
   range_m[kPredictedEdge] = around.or_start(memory.edge_m());
   range_m[kReferenceHere] = around.or_start(here);
-  range_m[kReferenceShifted] = around.or_start(where(seen(here), here + shift));
+  range_m[kPredictedLeft2] = around.or_start(around.left2);
+  range_m[kPredictedLine2] = around.line2();
   range_m[kReferenceLeftStep] =
       around.if_likely(where(seen(here) & seen(west) & seen(around.left), around.left + (here - west)));
-  range_m[kReferenceAboveStep] =
-      around.if_likely(where(seen(here) & seen(north) & seen(around.above), around.above + (here - north)));
   const Float8 reference_or_start = range_m[kReferenceHere];
   const auto or_here = [&](const Float8& m) HWY_ATTR { return select(seen(m), m, reference_or_start); };
   range_m[kReferenceRight] = or_here(east);
@@ -199,12 +197,14 @@ HWY_NOINLINE Proposals<kExperts> propose_for_predicted_frame(const Neighbourhood
     range_m[kReferenceMean] = around.or_start(where(seen(here), sum / count + shift));
   }
   if constexpr (kExperts == 24) {
-    range_m[kPredictedLine2] = around.line2();
+    const Float8 north = reference.range_m(0, -1);
+    range_m[kReferenceShifted] = around.or_start(where(seen(here), here + shift));
+    range_m[kReferenceAboveStep] =
+        around.if_likely(where(seen(here) & seen(north) & seen(around.above), around.above + (here - north)));
     range_m[kPredictedStep] = around.step_from_above();
     range_m[kPredictedAboveLeft] = around.or_start(around.above_left);
     range_m[kPredictedAboveRight2] =
         around.or_start(select(seen(around.above_right2), around.above_right2, around.above_right));
-    range_m[kPredictedLeft2] = around.or_start(around.left2);
     range_m[kPredictedLeft3] = around.or_start(cells.range_m(-3));
     range_m[kPredictedMeanLeft] = around.mean_left();
     range_m[kPredictedEarlierEdge] = around.or_start(memory.earlier_edge_m());
