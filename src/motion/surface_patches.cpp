@@ -102,10 +102,9 @@ std::optional<SurfacePatch> patch_around(const GridRays& sweep, int row, int col
 
 std::vector<SurfacePatch> find_surface_patches(const GridRays& sweep, int most) {
   const int half_rows = std::clamp(sweep.row_count() / 24, 1, kMostHalfRows);
-  const std::int64_t rows = sweep.row_count() - 2 * static_cast<std::int64_t>(half_rows),
-                     columns = sweep.column_count();
+  const std::int64_t rows = sweep.row_count() - std::int64_t{2} * half_rows, columns = sweep.column_count();
   std::vector<SurfacePatch> patches;
-  if (rows < 1 || columns < 4 * kHalfColumns || most < 1) return patches;
+  if (rows < 1 || columns < std::int64_t{4} * kHalfColumns || most < 1) return patches;
   // A step of the golden section around all cells visits them evenly, however early it ends.
   const std::int64_t cells = rows * columns;
   auto step = static_cast<std::int64_t>(0.6180339887 * static_cast<double>(cells));
