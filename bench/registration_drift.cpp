@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <exception>
 #include <filesystem>
@@ -30,11 +32,22 @@ struct Arguments {
   std::vector<std::string> folders;
   int simulated_sweeps = 0;
   double simulated_mps = 12;
+  double reference_bound_m = 0;
   bool with_pcl = true;
 };
 
+// As a decoder has them when every point must be within the bound; 0: as measured.
+void quantise(std::vector<float>& range_m, double bound_m) {
+  if (!(bound_m > 0)) return;
+  const auto step_m = static_cast<float>(2 * bound_m);
+  for (float& range : range_m) {
+    if (range > 0) range = std::max(1.0F, std::round(range / step_m)) * step_m;
+  }
+}
+
 // Each sweep against the one before, on the grid that the encoder finds; the last motion is the guess.
-MotionTrack own_track(const std::vector<PointCloud>& sweeps, const RegistrationSettings& settings) {
+MotionTrack own_track(const std::vector<PointCloud>& sweeps, const RegistrationSettings& settings,
+                      double reference_bound_m) {
   MotionTrack track;
   SensorEstimator estimator;
   std::optional<MeasuredGrid> previous;
@@ -60,6 +73,7 @@ MotionTrack own_track(const std::vector<PointCloud>& sweeps, const RegistrationS
     }
     previous = std::move(current);
     previous_range_m = std::move(range_m);
+    quantise(previous_range_m, reference_bound_m);
   }
   return track;
 }
@@ -74,17 +88,15 @@ void print_row(const std::string& set, const std::string& method, const MotionTr
 }
 
 void compare(const std::string& name, const std::vector<PointCloud>& sweeps, const std::vector<Pose>& truth,
-             bool with_pcl) {
-  print_row(name, "own", own_track(sweeps, {}), truth);
-  print_row(name, "own, quick", own_track(sweeps, kQuickRegistration), truth);
+             const Arguments& arguments) {
+  print_row(name, "own", own_track(sweeps, {}, arguments.reference_bound_m), truth);
+  print_row(name, "own, quick", own_track(sweeps, kQuickRegistration, arguments.reference_bound_m), truth);
 #ifdef POINTREEL_WITH_PCL
-  if (!with_pcl) return;
+  if (!arguments.with_pcl) return;
   for (const PclIcpSettings& settings : {PclIcpSettings{0.3, 1}, PclIcpSettings{0.1, 0.5}}) {
     print_row(name, fmt::format("PCL, {} m voxels", settings.voxel_m), pcl_icp_track(sweeps, settings),
               truth);
   }
-#else
-  (void)with_pcl;
 #endif
 }
 
@@ -112,7 +124,7 @@ void compare_simulated(const Arguments& arguments) {
     if (i < arguments.simulated_sweeps) sweeps.push_back(std::move(sweep.cloud));
   }
   compare(fmt::format("simulated, {} m/s", arguments.simulated_mps), sweeps,
-          poses_in_the_middle(T_world_begin), arguments.with_pcl);
+          poses_in_the_middle(T_world_begin), arguments);
 }
 
 void run(const Arguments& arguments) {
@@ -123,7 +135,7 @@ void run(const Arguments& arguments) {
     const std::filesystem::path path(folder);
     SweepSet set = load_sweep_set({folder}, (path / "poses.txt").string(), "", 0);
     set.poses.resize(set.sweeps.size());
-    compare(path.filename().string(), set.sweeps, set.poses, arguments.with_pcl);
+    compare(path.filename().string(), set.sweeps, set.poses, arguments);
   }
   if (arguments.simulated_sweeps > 1) compare_simulated(arguments);
 }
@@ -137,6 +149,8 @@ int main(int argc, char** argv) {
   app.add_option("FOLDER", arguments.folders, "Folders of sweeps, with poses.txt (KITTI)");
   app.add_option("--simulated", arguments.simulated_sweeps, "Sweeps of a simulated drive to do as well");
   app.add_option("--speed", arguments.simulated_mps, "Its cruising speed in m/s")->capture_default_str();
+  app.add_option("--reference-bound", arguments.reference_bound_m,
+                 "Registers against sweeps decoded with this bound in metres");
   app.add_flag("!--no-pcl", arguments.with_pcl, "Without PCL");
   try {
     app.parse(argc, argv);

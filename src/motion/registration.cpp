@@ -3,8 +3,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <span>
 
@@ -21,7 +21,7 @@ constexpr double kLeastInlierShare = 0.5;
 constexpr int kLeastInliers = 100;
 constexpr double kLeverArmM = 10;  // makes angles comparable with lengths
 // Of the weights' sum. Where the patches leave a direction open, the pose stays as it is.
-constexpr double kDamping = 1e-4;
+constexpr double kDamping = 1e-3;
 constexpr double kStillM = 1e-3;  // a step that moves nothing by more ends the rounds
 
 // What the patches say about a pose: how badly it fits, and the normal equations of a step T <- exp(v, w) T.
@@ -176,18 +176,23 @@ Pose best_along_weakest(const Pose& pose, const Evidence& coarse_evidence, const
   return best;
 }
 
-// From one start: wide kernels first when it may be far off.
-Registration register_from(const Pose& start, std::span<const float> kernels_m, const GridRays& reference,
+// A start may be the guess, and near, or none, and then the widest kernels come first.
+enum class Start : std::uint8_t { near, far };
+
+Registration register_from(const Pose& start_pose, Start start, const GridRays& reference,
                            std::span<const SurfacePatch> patches, const RegistrationSettings& settings) {
   constexpr float kFinestM = 0.1F;
   const auto coarse =
       patches.first(std::min(patches.size(), static_cast<std::size_t>(std::max(0, settings.coarse_patches))));
-  Pose pose = start;
-  for (const float kernel_m : kernels_m) {
-    if (kernel_m == 0.5F)
-      pose = best_along_weakest(pose, evidence_for(pose, reference, coarse, kernel_m), reference, patches);
+  Pose pose = start_pose;
+  const auto step_twice = [&](float kernel_m) {
     for (int i = 0; i < 2; ++i) pose = moved(solve(evidence_for(pose, reference, coarse, kernel_m)), pose);
+  };
+  if (start == Start::far) {
+    for (const float kernel_m : {2.0F, 1.0F}) step_twice(kernel_m);
   }
+  pose = best_along_weakest(pose, evidence_for(pose, reference, coarse, 0.5F), reference, patches);
+  for (const float kernel_m : {0.5F, 0.25F}) step_twice(kernel_m);
   Evidence evidence = evidence_for(pose, reference, patches, kFinestM);
   bool settled = false;
   for (int i = 0; i < settings.rounds && !settled; ++i) {
@@ -198,7 +203,7 @@ Registration register_from(const Pose& start, std::span<const float> kernels_m, 
   }
 
   Registration result;
-  result.T_ref_cur = start;
+  result.T_ref_cur = start_pose;
   if (patches.empty()) return result;
   result.inlier_share = static_cast<double>(evidence.inliers) / static_cast<double>(patches.size());
   result.rms_m = std::sqrt(evidence.inlier_squares_m2 / std::max(1, evidence.inliers));
@@ -213,17 +218,15 @@ Registration register_from(const Pose& start, std::span<const float> kernels_m, 
 
 Registration register_sweeps(const RangeGrid& reference, const RangeGrid& current,
                              const std::optional<Pose>& guess, const RegistrationSettings& settings) {
-  constexpr std::array<float, 4> kWideM = {2, 1, 0.5F, 0.25F};
   const GridRays reference_rays(reference);
   const auto patches = find_surface_patches(GridRays(current), settings.patches);
-  Registration result;
-  if (guess && guess->matrix().allFinite()) {
-    result = register_from(*guess, std::span(kWideM).last(2), reference_rays, patches, settings);
-    if (result.converged) return result;
+  if (!guess || !guess->matrix().allFinite()) {
+    return register_from(Pose::Identity(), Start::far, reference_rays, patches, settings);
   }
-  const Registration wide = register_from(Pose::Identity(), kWideM, reference_rays, patches, settings);
-  if (wide.converged || !guess || !guess->matrix().allFinite()) return wide;
-  return result;
+  Registration near = register_from(*guess, Start::near, reference_rays, patches, settings);
+  if (near.converged) return near;
+  Registration far = register_from(Pose::Identity(), Start::far, reference_rays, patches, settings);
+  return far.converged ? far : near;
 }
 
 }  // namespace pointreel

