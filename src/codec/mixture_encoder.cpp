@@ -81,11 +81,13 @@ class MixtureEncoder final : public Encoder::Implementation {
         writer.put(T_ref_cur ? SweepCoding::predicted : SweepCoding::gridded);
       }
       reference_frame = T_ref_cur ? packet.frame - 1 : *model_frame_;
+      if (temporal_) alignment_.set_reference(*model_, *gridded, T_world_sensor);
       const auto prediction = T_ref_cur ? std::optional(Prediction{reference_, *T_ref_cur}) : std::nullopt;
       encoded = encode_gridded({*model_, header_.max_error_m, header_.effort, threads_}, cloud, *std::move(gridded),
                                bursts, prediction ? &*prediction : nullptr, writer, packet.statistics);
       ++model_age_;
-      if (temporal_ && !starts_group()) keep_reference(encoded.image, T_world_sensor);
+      if (temporal_ && !starts_group())
+        reference_ = reference_from(*model_, encoded.image.grid, encoded.image.image.range_m, threads_);
     } else {
       encoded = encode_scattered_sweep(cloud, writer, packet.statistics);
       model_frame_.reset();
@@ -110,12 +112,6 @@ class MixtureEncoder final : public Encoder::Implementation {
 
   // The next gridded sweep brings the model.
   bool starts_group() const { return !model_frame_ || model_age_ >= header_.group; }
-
-  // For the next sweep of the group.
-  void keep_reference(const CodedImage& coded, const std::optional<Pose>& T_world_sensor) {
-    reference_ = reference_from(*model_, coded.grid, coded.image.range_m, threads_);
-    alignment_.set_reference(*model_, coded.grid, coded.image, T_world_sensor);
-  }
 
   // None when the sweep is not that of a sensor whose grid is known. Within a group the model stays as it was
   // sent, while the estimate gets better.
