@@ -10,29 +10,12 @@
 #include "predict/band_coding.h"
 #include "prior_trainer.h"
 #include "training_images.h"
+#include "untrained_state.h"
 
 namespace pointreel {
 namespace {
 
 constexpr int kMostRows = 512;
-
-BandState untrained(const CodingKind& kind) {
-  BandState state{HitMaskState(kMostRows), {}};
-  for (auto& mixer : state.mask.mixers) mixer.weight.fill(0.25F);
-  for (auto& at : state.ranges.mixture.classes) {
-    const std::size_t experts = experts_of(kind);
-    for (std::size_t k = 0; k < experts; ++k) {
-      at.weight[k] = 1;
-      at.inverse_scale[k] = 5;
-    }
-    at.per_total_weight = 1 / static_cast<float>(experts);
-  }
-  // The mixture has all the say at first.
-  for (auto& mixer : state.ranges.steps.zero_mixers) mixer.weight[0] = 1;
-  for (auto& mixer : state.ranges.steps.sign_mixers) mixer.weight[0] = 1;
-  for (auto& mixer : state.ranges.steps.more_mixers) mixer.weight[0] = 1;
-  return state;
-}
 
 struct Means {
   PriorMean ranges, mask;
@@ -40,7 +23,7 @@ struct Means {
 
 Means train(const std::vector<TrainingDrive>& drives, const CodingKind& kind, float step_m) {
   const RangeQuantiser quantiser{step_m, {}};
-  BandState running = untrained(kind);
+  BandState running = untrained(kind, kMostRows);
   Means means;
   for (const bool counts : {false, true}) {
     for (const TrainingDrive& drive : drives) {

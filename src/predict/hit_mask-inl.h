@@ -41,6 +41,7 @@ class HitMaskModel {
                                   : kPredicted            ? std::size_t{HitMaskState::kContexts}
                                                           : HitMaskState::kKeyContexts;
     constexpr float kMixingRate = 1.F / 512;
+    if (contexts_.is_sure(cell)) return code_sure(coder, cell, hit);
     std::array<CountedBit*, kUsed> slots;
     std::array<float, kUsed> inputs;
     for (std::size_t i = 0; i < kUsed; ++i) {
@@ -68,6 +69,16 @@ class HitMaskModel {
   }
 
  private:
+  // Amid hits, mixing would only take time.
+  template <class Coder>
+  POINTREEL_INLINE bool code_sure(Coder& coder, std::size_t cell, bool hit) {
+    CountedBit& bit = state_.sure[static_cast<std::size_t>(contexts_.slot[HitMaskState::kEdges][cell])];
+    hit = coder.code_with(hit, std::clamp(bit.p_one(), kMinProbability, 65536 - kMinProbability));
+    bit.update(hit);
+    hits_[cell] = hit ? 1 : 0;
+    return hit;
+  }
+
   HitMaskPlanes planes_;
   HitMaskState& state_;
   Int8 row_range_;  // of the last hit in each row

@@ -133,6 +133,9 @@ class HitMaskContexts {
               shifted_left<3>(here & all_ints<8>(3)),
           mixer);
     store(here, pattern_);
+    // The last three of the row, and in the row above those from one column left to two right.
+    const Int8 around = (here & all_ints<8>(7)) | shifted_left<3>(shifted_right<kAhead - 2>(above) & all_ints<8>(15));
+    store(where(around == all_ints<8>(127), one), sure_);
     store((above & all_ints<8>(kWindowBits)) | shifted_left<kWindow>(above2 & all_ints<8>(kWindow2Bits)),
           window_);
     store(load_ints<8>(planes.column_history.at(step, 0, -1)), column_history_);
@@ -147,6 +150,7 @@ class HitMaskContexts {
                             HWY_ATTR { return where((hits & all_ints<8>(kWarpedHit | kWarpedFilled)) > all_ints<8>(0), one); };
     const auto previous = [&](const Int8& hits) HWY_ATTR { return shifted_right<2>(hits) & one; };
     static_assert(kPreviousHit == 1 << 2);
+    store(where(warped(here) == one, load_ints<8>(sure_)), sure_);
     const Int8 north_coded = shifted_right<kAhead>(coded_above);
     const Int8 north_east_coded = shifted_right<kAhead - 1>(coded_above);
     store((here & all_ints<8>(7)) | shifted_left<3>(previous(west)) | shifted_left<4>(previous(east)) |
@@ -167,6 +171,9 @@ class HitMaskContexts {
               shifted_left<3>(warped(here)) | shifted_left<4>(previous(here)),
           mixer);
   }
+
+  // All around are hits, and the reference has one, too.
+  POINTREEL_INLINE bool is_sure(std::size_t cell) const { return sure_[cell] != 0; }
 
   POINTREEL_INLINE std::size_t run_class(std::size_t cell) const {
     const auto pattern = static_cast<std::uint32_t>(pattern_[cell]);
@@ -193,7 +200,7 @@ class HitMaskContexts {
   static constexpr std::int32_t kWindowBits = (1 << kWindow) - 1, kWindow2Bits = (1 << kWindow2) - 1;
 
   alignas(32) std::int32_t pattern_[Wavefront::kRows], window_[Wavefront::kRows],
-      column_history_[Wavefront::kRows];
+      column_history_[Wavefront::kRows], sure_[Wavefront::kRows];
 };
 
 }  // namespace HWY_NAMESPACE

@@ -23,6 +23,7 @@ struct HitMaskState {
     for (std::size_t i = 0; i < kContexts; ++i) bits[i].resize(i == kRow ? rows * kSlots[i] : kSlots[i]);
   }
 
+  std::array<CountedBit, kSlots[kEdges]> sure;          // of cells amid hits
   std::array<std::vector<CountedBit>, kContexts> bits;  // kRow: kSlots for each row
   std::array<MixerWeights<kContexts>, kMixers> mixers;
 };
@@ -30,6 +31,7 @@ struct HitMaskState {
 // Shows a visitor all that adapts, in the order of the tables of priors (priors.h).
 template <class State, class Visitor>
 void visit_hit_mask_state(State& state, Visitor& visitor) {
+  for (auto& bit : state.sure) visitor.bit(bit);
   for (std::size_t i = 0; i < HitMaskState::kContexts; ++i) {
     if (i == HitMaskState::kRow) {
       constexpr std::size_t kPerRow = HitMaskState::kSlots[HitMaskState::kRow];

@@ -53,6 +53,23 @@ struct WarpedPoints {
 };
 constexpr std::int32_t kRight = 1, kLeft = 2, kBelow = 4, kAbove = 8;
 
+// From one point to a neighbour on its surface.
+struct Step {
+  float rows, columns, u;
+};
+// 1 or 0, for SIMD code.
+inline float same_surface(float range_m, float other_m) {
+  const float same = std::fabs(other_m - range_m) <= 0.03F * range_m + 0.3F ? 1.0F : 0.0F;
+  return other_m > 0 ? same : 0.0F;
+}
+// Across the seam of an image of `width` columns, if that is shorter.
+inline float columns_between(float from, float to, float width) {
+  float columns = to - from;
+  columns -= columns > 0.5F * width ? width : 0.0F;
+  columns += columns < -0.5F * width ? width : 0.0F;
+  return columns;
+}
+
 class Warp {
  public:
   Warp(const SensorModel& model, const SweepGrid& grid, const ReferenceSweep& reference, const Pose& T_ref_cur)
@@ -197,24 +214,16 @@ class Warp {
     float* __restrict per_column = &points_.per_column[first];
     float* __restrict per_row = &points_.per_row[first];
     std::int32_t* __restrict sides = &points_.sides[first];
-    struct Step {
-      float rows, columns, u;
-    };
-    const auto known = [=](std::ptrdiff_t i, std::ptrdiff_t j) {
-      const float same = std::fabs(range_m[j] - range_m[i]) <= 0.03F * range_m[i] + 0.3F ? 1.0F : 0.0F;
-      return range_m[j] > 0 ? same : 0.0F;
-    };
-    const auto step = [=](float weight, std::ptrdiff_t i, std::ptrdiff_t j) {
-      float across = c[j] - c[i];
-      across -= across > 0.5F * width ? width : 0.0F;  // the seam
-      across += across < -0.5F * width ? width : 0.0F;
-      return Step{weight * (r[j] - r[i]), weight * across, weight * (u[j] - u[i])};
-    };
     for (std::ptrdiff_t i = 0; i < columns; ++i) {
-      const float right = known(i, i + 1), left = known(i, i - 1);
-      const float below = known(i, i + stride), above = known(i, i - stride);
-      const Step to_right = step(right, i, i + 1), to_left = step(left, i, i - 1);
-      const Step down = step(below, i, i + stride), up = step(above, i, i - stride);
+      const float right = same_surface(range_m[i], range_m[i + 1]), left = same_surface(range_m[i], range_m[i - 1]);
+      const float below = same_surface(range_m[i], range_m[i + stride]);
+      const float above = same_surface(range_m[i], range_m[i - stride]);
+      const Step to_right = {right * (r[i + 1] - r[i]), right * columns_between(c[i], c[i + 1], width), right * (u[i + 1] - u[i])};
+      const Step to_left = {left * (r[i - 1] - r[i]), left * columns_between(c[i], c[i - 1], width), left * (u[i - 1] - u[i])};
+      const Step down = {below * (r[i + stride] - r[i]), below * columns_between(c[i], c[i + stride], width),
+                         below * (u[i + stride] - u[i])};
+      const Step up = {above * (r[i - stride] - r[i]), above * columns_between(c[i], c[i - stride], width),
+                       above * (u[i - stride] - u[i])};
       const Step beside = {to_right.rows - to_left.rows, to_right.columns - to_left.columns, to_right.u - to_left.u};
       const Step over = {down.rows - up.rows, down.columns - up.columns, down.u - up.u};
       const float determinant = beside.columns * over.rows - beside.rows * over.columns;

@@ -53,9 +53,9 @@ TEST_P(MixtureRealSweeps, KeepEveryPromise) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sets, MixtureRealSweeps,
-                         testing::Values(RealSet{"kitti_raw_0005", true, 2.32},
-                                         RealSet{"kitti_raw_0001", true, 2.42},
-                                         RealSet{"kitti_odometry_00", true, 2.42},
+                         testing::Values(RealSet{"kitti_raw_0005", true, 2.02},
+                                         RealSet{"kitti_raw_0001", true, 2.2},
+                                         RealSet{"kitti_odometry_00", true, 2.2},
                                          RealSet{"ring_time_pcd", true, 2.9}),
                          [](const auto& set) { return std::string(set.param.folder); });
 

@@ -126,16 +126,16 @@ std::vector<Registration> motions_along(const std::vector<PointCloud>& sweeps, b
 
 class SimulatedDrive : public testing::TestWithParam<std::tuple<SensorKind, bool, bool>> {};
 
-struct Drive {
+struct TruthDrive {
   std::vector<PointCloud> sweeps;
   std::vector<Pose> T_world_sweep;
 };
 
 // Sweeps at speed, made once for all tests. The simulator gives the pose at a sweep's beginning, while what a
 // whole sweep tells is that of its middle.
-const Drive& fast_drive(SensorKind sensor) {
-  static std::map<SensorKind, Drive> drives;
-  Drive& drive = drives[sensor];
+const TruthDrive& fast_drive(SensorKind sensor) {
+  static std::map<SensorKind, TruthDrive> drives;
+  TruthDrive& drive = drives[sensor];
   if (!drive.sweeps.empty()) return drive;
   SimulatorOptions options;
   options.sensor = sensor;
@@ -156,7 +156,7 @@ const Drive& fast_drive(SensorKind sensor) {
 
 TEST_P(SimulatedDrive, IsFollowed) {
   const auto [sensor, with_guess, quick] = GetParam();
-  const Drive& drive = fast_drive(sensor);
+  const TruthDrive& drive = fast_drive(sensor);
   const auto motions =
       motions_along(drive.sweeps, with_guess, quick ? kQuickRegistration : RegistrationSettings{});
   for (std::size_t i = 0; i < motions.size(); ++i) {

@@ -1,0 +1,110 @@
+// The warped reference: what a sweep says about another place.
+#include "predict/warp.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "predict/coding_grid.h"
+#include "sensor/ray_table.h"
+
+namespace pointreel {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+SensorModel sensor(int rows) {
+  SensorModel model;
+  for (int row = 0; row < rows; ++row) {
+    model.rows.push_back(rounded({0.05 - 0.4 * row / rows, row % 2 == 0 ? 0.1 : 0.15, row % 3 * 0.04,
+                                  row % 2 == 0 ? 0.026 : -0.026}));
+    model.row_sequence.push_back(static_cast<std::uint16_t>(row));
+  }
+  model.ticks_per_turn = 4000;
+  return model;
+}
+
+SweepGrid full_turn(std::uint32_t first_tick = 0) {
+  SweepGrid grid;
+  grid.ticks_per_turn = 4000;
+  for (std::uint32_t tick = first_tick; tick < 4000; tick += 2) grid.column_tick.push_back(tick);
+  return grid;
+}
+
+// A room of 20 x 14 m, floor 1.8 m below: the range along each ray, from a sensor at `x_m`, `y_m`.
+GridImage room_from(const SensorModel& model, const SweepGrid& grid, double x_m, double y_m, double yaw_rad) {
+  const CodingGrid coding(model, grid);
+  const RayTable rays(model, grid);
+  std::vector<float> range_of_cell_m(coding.rows() * coding.columns());
+  for (std::size_t row = 0; row < coding.rows(); ++row) {
+    for (std::size_t column = 0; column < coding.columns(); ++column) {
+      const auto inside = [&](float range_m) {
+        const Point3f p = rays.measured_position(row, column, range_m);
+        const double x = x_m + std::cos(yaw_rad) * p.x - std::sin(yaw_rad) * p.y;
+        const double y = y_m + std::sin(yaw_rad) * p.x + std::cos(yaw_rad) * p.y;
+        return std::fabs(x) < 10 && std::fabs(y) < 7 && p.z > -1.8F && p.z < 3;
+      };
+      float near_m = 0, far_m = 60;
+      for (int i = 0; i < 40; ++i) (inside(0.5F * (near_m + far_m)) ? near_m : far_m) = 0.5F * (near_m + far_m);
+      range_of_cell_m[row * coding.columns() + column] = near_m;
+    }
+  }
+  return coding.image_of(range_of_cell_m, 1);
+}
+
+Pose moved(double x_m, double y_m, double yaw_rad) {
+  Pose pose = Pose::Identity();
+  pose.translate(Eigen::Vector3d(x_m, y_m, 0));
+  pose.rotate(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()));
+  return pose;
+}
+
+TEST(Warp, ShowsARoomFromAnotherPlace) {
+  const SensorModel model = sensor(32);
+  const SweepGrid reference_grid = full_turn(), grid = full_turn(1);
+  const GridImage before = room_from(model, reference_grid, 0, 0, 0);
+  const ReferenceSweep reference = reference_from(model, reference_grid, before.range_m, 1);
+  for (const auto& [x_m, y_m, yaw_rad] : {std::tuple{0.0, 0.0, 0.0}, {1.3, 0.1, 0.02}, {-0.5, 0.4, -0.3}}) {
+    const GridImage now = room_from(model, grid, x_m, y_m, yaw_rad);
+    const ReferenceImage warped = warp(model, grid, reference, moved(x_m, y_m, yaw_rad), 1);
+    ASSERT_EQ(warped.range_m.size(), now.range_m.size());
+    std::vector<float> errors_m;
+    for (std::size_t i = 0; i < now.range_m.size(); ++i) {
+      if (warped.range_m[i] > 0) errors_m.push_back(std::fabs(warped.range_m[i] - now.range_m[i]));
+    }
+    EXPECT_GT(static_cast<double>(errors_m.size()), 0.9 * static_cast<double>(now.range_m.size()));
+    std::sort(errors_m.begin(), errors_m.end());
+    EXPECT_LT(errors_m[errors_m.size() / 2], 0.002F) << x_m;
+    EXPECT_LT(errors_m[errors_m.size() * 9 / 10], 0.03F) << x_m;
+  }
+}
+
+TEST(Warp, IsTheSameForAnyNumberOfThreads) {
+  const SensorModel model = sensor(16);
+  const SweepGrid grid = full_turn();
+  const ReferenceSweep reference = reference_from(model, grid, room_from(model, grid, 0, 0, 0).range_m, 3);
+  const ReferenceImage one = warp(model, grid, reference, moved(0.7, 0, 0.05), 1);
+  const ReferenceImage four = warp(model, grid, reference, moved(0.7, 0, 0.05), 4);
+  EXPECT_EQ(one.range_m, four.range_m);
+  EXPECT_EQ(one.hits, four.hits);
+}
+
+// Whatever a damaged stream says about the motion.
+TEST(Warp, StaysFiniteForAnyMotionAndAnyGrid) {
+  const SensorModel model = sensor(5);
+  for (const std::size_t columns : {1u, 2u, 3u, 700u}) {
+    SweepGrid grid = full_turn();
+    grid.column_tick.resize(columns);
+    const GridImage image{5, static_cast<int>(columns), std::vector<float>(5 * columns, 4.0F)};
+    const ReferenceSweep reference = reference_from(model, grid, image.range_m, 1);
+    for (const double far_m : {0.0, 4.0, 1e6, 1e30, static_cast<double>(std::numeric_limits<float>::max())}) {
+      const ReferenceImage warped = warp(model, grid, reference, moved(far_m, -far_m, kPi), 1);
+      for (const float range_m : warped.range_m) ASSERT_TRUE(std::isfinite(range_m) && range_m >= 0);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pointreel
