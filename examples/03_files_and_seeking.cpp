@@ -13,7 +13,7 @@ constexpr const char* kPath = "example.reel";
 
 bool record(int sweeps) {
   pointreel::EncoderOptions options;
-  options.mixture.group = 4;  // the first sweep of a group decodes by itself, the others after it
+  options.mixture.group = 4;  // the first sweep of a group decodes by itself, each other one after the one before
   auto encoder = pointreel::Encoder::create(options);
   if (!encoder) return false;
   std::ofstream file(kPath, std::ios::binary);
@@ -37,21 +37,17 @@ bool show(std::uint32_t wanted_frame) {
   auto decoder = pointreel::Decoder::create(reader->header());
   const auto index = reader->index();
   if (!decoder || !index) return false;
-  for (const auto& entry : index->entries) {
-    if (entry.frame != wanted_frame) continue;
-    // A predicted sweep needs its reference decoded before it.
-    for (const auto& needed : index->entries) {
-      if (needed.frame != entry.reference_frame && needed.frame != entry.frame) continue;
-      if (!reader->seek(needed)) return false;
-      const auto packet = reader->read_packet();
-      if (!packet) return false;
-      const auto sweep = std::move(decoder->decode({&*packet, 1}).front());
-      if (!sweep) return false;
-      std::printf("frame %u: %u bytes, %zu points\n", sweep->frame, needed.bytes, sweep->cloud.size());
-    }
-    return true;
+  // A predicted sweep needs those before it in its group.
+  const auto needed = index->needed_for(wanted_frame);
+  for (const auto& entry : needed) {
+    if (!reader->seek(entry)) return false;
+    const auto packet = reader->read_packet();
+    if (!packet) return false;
+    const auto sweep = std::move(decoder->decode({&*packet, 1}).front());
+    if (!sweep) return false;
+    std::printf("frame %u: %u bytes, %zu points\n", sweep->frame, entry.bytes, sweep->cloud.size());
   }
-  return false;
+  return !needed.empty();
 }
 
 }  // namespace

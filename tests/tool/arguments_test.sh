@@ -51,8 +51,10 @@ wrong "--imu" "${planes[@]}" --imu a.csv --poses b.txt
 wrong "--max-error goes with --method mixture only; method planes has --threshold" "${planes[@]}" --max-error 2cm
 wrong "--fields goes with --method mixture only" "${planes[@]}" --fields all
 wrong "--no-temporal goes with --method mixture only; for method planes, use --group 1" "${planes[@]}" --no-temporal
+wrong "--effort goes with --method mixture only" "${planes[@]}" --effort max
+wrong "--effort" encode drive -o a.reel --effort slow
 wrong "--threshold goes with --method planes only; method mixture has --max-error" encode drive -o a.reel --threshold 0.1
-for option in --azimuth-step=1deg --elevation-step=1deg --tile=4 --residual-step=auto --poses=a.txt --imu=a.csv; do
+for option in --azimuth-step=1deg --elevation-step=1deg --tile=4 --residual-step=auto; do
   wrong "${option%=*} goes with --method planes only" encode drive -o a.reel "$option"
 done
 [[ ! -e a.reel ]] || fail "an output of wrong arguments"

@@ -92,6 +92,23 @@ for frame in 0 1 2 3; do same_file "cut/00000$frame.bin" "kitti/00000$frame.bin"
 run 3 verify cut.reel drive
 says stderr "1 of the 5 originals are not in it"
 
+# Efforts, each sweep by itself, and motion from a file.
+for options in "--effort fast" "--effort max" --no-temporal "--poses drive/poses.txt" "--imu drive/imu.csv"; do
+  # shellcheck disable=SC2086
+  run 0 encode drive -o other.reel -f $options
+  run 0 verify other.reel drive --json
+  json "r['bound_held'] is True and r['points_lost'] == 0 and r['order_preserved'] is True"
+done
+run 0 encode drive -o fast.reel --effort fast
+run 0 info fast.reel --json
+json "r['effort'] == 'fast'"
+run 0 encode drive -o apart.reel --no-temporal
+(($(stat -c %s drive.reel) < $(stat -c %s apart.reel))) || fail "the sweep before saved nothing"
+# One sweep out of the middle of a group.
+run 0 decode drive.reel -o all
+run 0 decode drive.reel -o one --frames 3:4
+same_file one/000003.bin all/000003.bin
+
 # Against the wrong originals: other points, and the same ones moved by 5 cm.
 run 0 simulate -o other --frames 5 --sensor vlp-16 --seed 99
 run 1 verify drive.reel other

@@ -148,8 +148,12 @@ Result<std::vector<Packet>> packets_for(ReelReader& reader, const FrameRange& wa
     written.lost_some = true;
   }
   std::set<std::uint32_t> needed;
-  for (const ReelIndexEntry& entry : index->entries) {
-    if (wanted.contains(entry.frame)) needed.insert({entry.frame, entry.reference_frame});
+  // From the last one on, so that one search finds a whole group.
+  for (auto entry = index->entries.rbegin(); entry != index->entries.rend(); ++entry) {
+    if (!wanted.contains(entry->frame) || needed.contains(entry->frame)) continue;
+    // Where a reference is not in the reel, the decoder says so.
+    needed.insert(entry->frame);
+    for (const ReelIndexEntry& before : index->needed_for(entry->frame)) needed.insert(before.frame);
   }
   std::vector<Packet> packets;
   for (const ReelIndexEntry& entry : index->entries) {

@@ -55,11 +55,16 @@ const char* name_of(FrameKind kind) {
   return kind == FrameKind::key ? "K" : "P";
 }
 
+const char* name_of(Effort effort) {
+  return effort == Effort::fast ? "fast" : effort == Effort::max ? "max" : "balanced";
+}
+
 nlohmann::json method_json(const StreamHeader& header) {
   if (header.method == Method::mixture) {
     return {{"method", "mixture"},
             {"max_error_m", header.max_error_m},
             {"group", header.group},
+            {"effort", name_of(header.effort)},
             {"bound_kind", "space"}};
   }
   return {{"method", "planes"},
@@ -106,8 +111,8 @@ double bits_per_point(std::uint64_t bytes, std::uint64_t points) {
 }
 
 void print_mixture(const Summary& summary, const StreamHeader& header) {
-  fmt::print("  method    mixture: every point within {:g} m, groups of {}\n", header.max_error_m,
-             header.group);
+  fmt::print("  method    mixture: every point within {:g} m, groups of {}, effort {}\n", header.max_error_m,
+             header.group, name_of(header.effort));
   fmt::print("  kept      {} points; {} not finite\n", summary.points_out, summary.non_finite);
 }
 
