@@ -74,9 +74,9 @@ void report(const std::vector<TrainingDrive>& drives, const char* frames, const 
   print("all ingredients", {});
   print("state kept from sweep to sweep", {{}, true, true});
   print("without priors (state as new)", {{}, false, false});
-  print("without the second stage", {{0, 0.1F, 0.08F, false}});
+  print("without the second stage", {{0, 0.2F, 0.08F, false}});
   print("weights do not learn", {{0, 0, 0.08F}});
-  print("scales do not learn", {{0, 0.1F, 0}});
+  print("scales do not learn", {{0, 0.2F, 0}});
   for (const auto& [name, lanes] : experts) print(fmt::format("without {}", name), {{lanes}});
   fmt::print("\n");
 }

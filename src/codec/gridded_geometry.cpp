@@ -178,7 +178,8 @@ EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud&
   }
   GridImage image = coding.image_of(range_of_cell_m, threads);
   ByteWriter image_bytes;
-  encode_image({model, sweep.grid, quantiser, effort, threads}, prediction, image, image_bytes, statistics);
+  auto states =
+      encode_image({model, sweep.grid, quantiser, effort, threads}, prediction, image, image_bytes, statistics);
 
   // The points as the decoder will have them, in its sequence.
   range_of_cell_m = coding.ranges_of_cells(image, threads);
@@ -234,7 +235,7 @@ EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud&
     statistics.order_bits += bits_of(burst_bytes.size());
     encoded.geometry.bursts.assign(bursts.begin(), bursts.end());
   }
-  encoded.image = {std::move(sweep.grid), std::move(image)};
+  encoded.image = {std::move(sweep.grid), std::move(image), std::move(states)};
   return encoded;
 }
 
@@ -249,8 +250,8 @@ Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size
   if (grid->column_count() == 0) return Error{ErrorCode::corrupt, "its grid has no columns"};
   const CodingGrid coding(model, *grid);
   GridImage image = coding.empty_image();
-  const auto decoded_image = decode_image({model, *grid, *quantiser, effort, threads}, reference, reader, image);
-  if (!decoded_image) return decoded_image.error();
+  auto states = decode_image({model, *grid, *quantiser, effort, threads}, reference, reader, image);
+  if (!states) return states.error();
 
   const auto range_of_cell_m = coding.ranges_of_cells(image, threads);
   auto cells = cells_in_order(occupied_cells(range_of_cell_m), range_of_cell_m, model, *grid);
@@ -299,7 +300,7 @@ Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size
     const bool stray = result.geometry.cell_of_point[i] < 0;
     result.positions[i] = stray ? strays[next_stray++].position : positions[cells[next_cell++]];
   }
-  result.image = {*grid, std::move(image)};
+  result.image = {*grid, std::move(image), *std::move(states)};
   return result;
 }
 

@@ -28,7 +28,8 @@ struct CodedGeometry {
 // The decoded ranges on their grid: what the next sweep can be predicted from.
 struct CodedImage {
   SweepGrid grid;
-  GridImage image;  // empty for a sweep without a grid
+  GridImage image;                // empty for a sweep without a grid
+  std::vector<BandState> states;  // ReferenceSweep::states
 };
 
 // What both sides know of the sensor and the stream.

@@ -27,12 +27,13 @@ struct Prediction {
   Pose T_ref_cur = Pose::Identity();  // the encoder's: it is rounded for the stream
 };
 
-// `prediction`: nullptr for a frame by itself. The ranges are replaced by what the decoder will see.
-void encode_image(const ImageSetting& setting, const Prediction* prediction, GridImage& image, ByteWriter& writer,
-                  FrameStatistics& statistics);
+// `prediction`: nullptr for a frame by itself. The ranges are replaced by what the decoder will see. Gives back what
+// the bands have taught, empty for a frame by itself (ReferenceSweep::states).
+std::vector<BandState> encode_image(const ImageSetting& setting, const Prediction* prediction, GridImage& image,
+                                    ByteWriter& writer, FrameStatistics& statistics);
 
 // `reference`: nullptr for a frame by itself. Fills an empty image. Error: truncated or corrupt.
-Result<void> decode_image(const ImageSetting& setting, const ReferenceSweep* reference, ByteReader& reader,
-                          GridImage& image);
+Result<std::vector<BandState>> decode_image(const ImageSetting& setting, const ReferenceSweep* reference,
+                                            ByteReader& reader, GridImage& image);
 
 }  // namespace pointreel

@@ -77,7 +77,8 @@ class MixtureDecoder final : public Decoder::Implementation {
     if (!fields) return fields.error();
     if (!reader.rest().empty()) return Error{ErrorCode::corrupt, "bytes follow its fields"};
     if (!geometry->image.image.range_m.empty()) {
-      reference_ = reference_from(model_, geometry->image.grid, geometry->image.image.range_m, threads_);
+      reference_ = reference_from(model_, geometry->image.grid, geometry->image.image.range_m,
+                                  std::move(geometry->image.states), threads_);
       reference_frame_ = packet.frame;
     }
     DecodedSweep sweep;

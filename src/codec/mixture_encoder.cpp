@@ -87,7 +87,8 @@ class MixtureEncoder final : public Encoder::Implementation {
                                bursts, prediction ? &*prediction : nullptr, writer, packet.statistics);
       ++model_age_;
       if (temporal_ && !starts_group())
-        reference_ = reference_from(*model_, encoded.image.grid, encoded.image.image.range_m, threads_);
+        reference_ = reference_from(*model_, encoded.image.grid, encoded.image.image.range_m,
+                                    std::move(encoded.image.states), threads_);
     } else {
       encoded = encode_scattered_sweep(cloud, writer, packet.statistics);
       model_frame_.reset();

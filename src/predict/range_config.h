@@ -8,7 +8,7 @@ namespace pointreel {
 
 struct Ingredients {
   std::uint32_t experts_off = 0;  // a bit per expert, which then proposes the first guess
-  float weight_rate = 0.1F;       // how fast the mixture's weights and scales learn
+  float weight_rate = 0.2F;       // how fast the mixture's weights and scales learn
   float scale_rate = 0.08F;
   bool second_stage = true;
 };

@@ -9,13 +9,13 @@
 namespace pointreel {
 
 ReferenceSweep reference_from(const SensorModel& model, const SweepGrid& grid, std::span<const float> range_m,
-                              int threads) {
+                              std::vector<BandState> states, int threads) {
   const CodingGrid coding(model, grid);
   SweepGrid measured = grid;
   measured.motion.reset();
   const RayTable rays(model, measured);
   ReferenceSweep reference{static_cast<int>(coding.rows()), static_cast<int>(coding.columns()),
-                           {range_m.begin(), range_m.end()}, {}, {}, {}, grid};
+                           {range_m.begin(), range_m.end()}, {}, {}, {}, grid, std::move(states)};
   for (auto* axis : {&reference.x_m, &reference.y_m, &reference.z_m}) axis->resize(range_m.size());
   parallel_for(coding.rows(), threads, [&](std::size_t row) {
     const auto first = static_cast<std::ptrdiff_t>(row * coding.columns());

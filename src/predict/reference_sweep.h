@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "predict/band_coding.h"
 #include "sensor/sensor_model.h"
 #include "sensor/sweep_grid.h"
 
@@ -17,10 +18,12 @@ struct ReferenceSweep {
   std::vector<float> range_m;       // along the ray; 0: no return
   std::vector<float> x_m, y_m, z_m;  // in the sensor's coordinates; 0 where there is no return
   SweepGrid grid;
+  // What coding it has taught, where it was itself predicted: the next sweep goes on from there.
+  std::vector<BandState> states;
 };
 
-// `range_m`: of the coding image.
+// `range_m`: of the coding image. `states`: at the end of its bands; empty where it was coded by itself.
 ReferenceSweep reference_from(const SensorModel& model, const SweepGrid& grid, std::span<const float> range_m,
-                              int threads);
+                              std::vector<BandState> states, int threads);
 
 }  // namespace pointreel
