@@ -64,10 +64,16 @@ class MixtureDecoder final : public Decoder::Implementation {
                                            " was not decoded before it"};
     }
 
+    if (coding == SweepCoding::predicted && header_.effort == Effort::fast)
+      return Error{ErrorCode::corrupt, "effort fast predicts no sweep from another"};
+    ReferenceSweep reference;
+    if (coding == SweepCoding::predicted)
+      reference = reference_from(model_, last_image_.grid, last_image_.image.range_m, last_image_.states, threads_);
+
     auto geometry = coding == SweepCoding::scattered
                         ? decode_scattered_sweep(packet, reader)
                         : decode_gridded({model_, header_.max_error_m, header_.effort, threads_}, packet.points_out,
-                                         coding == SweepCoding::predicted ? &reference_ : nullptr, reader);
+                                         coding == SweepCoding::predicted ? &reference : nullptr, reader);
     if (!geometry) return geometry.error();
     const std::size_t field_bytes = ByteReader(reader).rest().size();  // a copy: rest() takes them
     for (const Point3f& position : geometry->positions) {
@@ -77,8 +83,7 @@ class MixtureDecoder final : public Decoder::Implementation {
     if (!fields) return fields.error();
     if (!reader.rest().empty()) return Error{ErrorCode::corrupt, "bytes follow its fields"};
     if (!geometry->image.image.range_m.empty()) {
-      reference_ = reference_from(model_, geometry->image.grid, geometry->image.image.range_m,
-                                  std::move(geometry->image.states), threads_);
+      last_image_ = std::move(geometry->image);
       reference_frame_ = packet.frame;
     }
     DecodedSweep sweep;
@@ -110,7 +115,7 @@ class MixtureDecoder final : public Decoder::Implementation {
   int threads_;
   SensorModel model_;
   std::optional<std::uint32_t> model_frame_;  // the frame that brought it
-  ReferenceSweep reference_;                  // the last sweep on the grid
+  CodedImage last_image_;                     // of the last sweep on the grid
   std::optional<std::uint32_t> reference_frame_;
 };
 

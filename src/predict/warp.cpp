@@ -1,5 +1,6 @@
 #include "predict/warp.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -73,7 +74,8 @@ inline float columns_between(float from, float to, float width) {
 class Warp {
  public:
   Warp(const SensorModel& model, const SweepGrid& grid, const ReferenceSweep& reference, const Pose& T_ref_cur)
-      : reference_(reference),
+      : model_(model),
+        reference_(reference),
         rows_(rows_of(model)),
         coding_(model, grid),
         finder_(grid),
@@ -98,11 +100,13 @@ class Warp {
     image_.range_m.assign(cells, 0);
     image_.hits.assign(cells, 0);
     weight_.assign(cells, 0);
-    for_each_point([&](std::size_t point) { render_nearest(point); });
-    for_each_point([&](std::size_t point) { render_holes(point); });
-    for (std::size_t cell = 0; cell < cells; ++cell) {
-      image_.range_m[cell] = weight_[cell] > 0 ? image_.range_m[cell] / weight_[cell] : 0.0F;
-    }
+    find_previous_hits();
+    // Every cell has the points in the same sequence, whoever takes its row.
+    const int pieces = std::min(threads, image_.rows);
+    parallel_for(static_cast<std::size_t>(pieces), threads, [&](std::size_t piece) {
+      const int i = static_cast<int>(piece);
+      render({image_.rows * i / pieces, image_.rows * (i + 1) / pieces});
+    });
     return std::move(image_);
   }
 
@@ -112,12 +116,42 @@ class Warp {
            static_cast<std::size_t>(column);
   }
 
+  // Of the reference as it stood, by row and azimuth.
+  void find_previous_hits() {
+    const ColumnFinder before(reference_.grid);
+    const CodingGrid coding_before(model_, reference_.grid);
+    std::vector<std::int32_t> column_before;
+    for (std::size_t c = 0; c < coding_.columns(); ++c) column_before.push_back(before.nearest_to(finder_, c));
+    for (std::size_t row = 0; row < coding_.rows(); ++row) {
+      CodingGrid::Finder cell(coding_), cell_before(coding_before);
+      for (std::size_t c = 0; c < coding_.columns(); ++c) {
+        if (column_before[c] < 0) continue;
+        const auto there = row * coding_before.columns() + static_cast<std::size_t>(column_before[c]);
+        if (reference_.range_m[cell_before(there)] > 0) image_.hits[cell(row * coding_.columns() + c)] = kPreviousHit;
+      }
+    }
+  }
+
+  // Rows of the image.
+  struct Rows {
+    int first, end;
+    bool hold(int row) const { return row >= first && row < end; }
+  };
+  void render(const Rows& rows) {
+    for_each_point(rows, [&](std::size_t point) { render_nearest(point, rows); });
+    for_each_point(rows, [&](std::size_t point) { render_holes(point, rows); });
+    for (std::size_t cell = image_.index(rows.first, 0); cell < image_.index(rows.end, 0); ++cell) {
+      image_.range_m[cell] = weight_[cell] > 0 ? image_.range_m[cell] / weight_[cell] : 0.0F;
+    }
+  }
+  // Those that can touch the rows.
   template <class Render>
-  void for_each_point(const Render& render) {
+  void for_each_point(const Rows& rows, const Render& render) {
+    const auto least = static_cast<float>(rows.first - 1), most = static_cast<float>(rows.end);
     for (int row = 0; row < reference_.rows; ++row) {
       const std::size_t first = points_.index(row, 0);
       for (std::size_t point = first; point < first + static_cast<std::size_t>(reference_.columns); ++point) {
-        if (points_.range_m[point] > 0) render(point);
+        if (points_.range_m[point] > 0 && points_.row[point] >= least && points_.row[point] <= most) render(point);
       }
     }
   }
@@ -176,7 +210,7 @@ class Warp {
     return row;
   }
 
-  // False when no row looks there.
+  // False when no row or no column looks there.
   bool place(std::size_t point, int row, float z_m, float rho_m, float azimuth_rad) {
     constexpr float kMostBeyond = 0.6F;  // rows, past the first and the last
     const float above = height_above(row, z_m, rho_m);
@@ -195,8 +229,10 @@ class Warp {
     float turn = azimuth_rad * static_cast<float>(1 / (2 * kPi)) - at.azimuth_turns - at.side_turns_m / rho_m;
     turn -= static_cast<float>(static_cast<std::int32_t>(turn));
     turn += turn < 0 ? 1.0F : 0.0F;
+    const float column = finder_.position(turn);
+    if (column < 0) return false;
     points_.row[point] = static_cast<float>(row) + static_cast<float>(step) * beside;
-    points_.column[point] = finder_.position(turn) + shift_[static_cast<std::size_t>(row)];
+    points_.column[point] = column + shift_[static_cast<std::size_t>(row)];
     points_.inverse_rho[point] = 1 / rho_m;
     return true;
   }
@@ -272,11 +308,11 @@ class Warp {
   }
 
   // Into the nearest cell: before what is there, or as part of its mean when that is the same surface.
-  void render_nearest(std::size_t point) {
+  void render_nearest(std::size_t point, const Rows& rows) {
     const Place at = place_of(point);
     const int down = at.row_part > 0.5F ? 1 : 0, right = at.column_part > 0.5F ? 1 : 0;
     const int row = at.row + down;
-    if (row < 0 || row >= image_.rows) return;
+    if (!rows.hold(row)) return;
     const float rows_off = static_cast<float>(down) - at.row_part;
     const float columns_off = static_cast<float>(right) - at.column_part;
     const float range_m = range_beside(point, row, rows_off, columns_off);
@@ -285,7 +321,7 @@ class Warp {
     float& sum = image_.range_m[cell];
     float& total = weight_[cell];
     constexpr float kSame = 0.03F;
-    if (image_.hits[cell] != 0) {
+    if ((image_.hits[cell] & kWarpedHit) != 0) {
       if (range_m * total > (1 + kSame) * sum) return;  // behind
       if (range_m * total >= (1 - kSame) * sum) {
         sum += range_m * weight;
@@ -293,34 +329,35 @@ class Warp {
         return;
       }
     }
-    image_.hits[cell] = kWarpedHit;
+    image_.hits[cell] |= kWarpedHit;
     sum = range_m * weight;
     total = weight;
   }
 
   // Into the other three, where its surface goes on and no point is nearest.
-  void render_holes(std::size_t point) {
+  void render_holes(std::size_t point, const Rows& rows) {
     const std::int32_t sides = points_.sides[point];
     const Place at = place_of(point);
     for (int down = 0; down < 2; ++down) {
       const int row = at.row + down;
       const bool near_row = (at.row_part > 0.5F) == (down == 1);
-      if (row < 0 || row >= image_.rows || !(near_row || (sides & (down == 1 ? kBelow : kAbove)) != 0)) continue;
+      if (!rows.hold(row) || !(near_row || (sides & (down == 1 ? kBelow : kAbove)) != 0)) continue;
       for (int right = 0; right < 2; ++right) {
         const bool near_column = (at.column_part > 0.5F) == (right == 1);
         if ((near_row && near_column) || !(near_column || (sides & (right == 1 ? kRight : kLeft)) != 0)) continue;
         const std::size_t cell = cell_at(row, at.column + right);
-        if (image_.hits[cell] == kWarpedHit) continue;
+        if ((image_.hits[cell] & kWarpedHit) != 0) continue;
         const float range_m = range_beside(point, row, static_cast<float>(down) - at.row_part,
                                            static_cast<float>(right) - at.column_part);
-        if (image_.hits[cell] == kWarpedFilled && !(range_m < image_.range_m[cell])) continue;
-        image_.hits[cell] = kWarpedFilled;
+        if ((image_.hits[cell] & kWarpedFilled) != 0 && !(range_m < image_.range_m[cell])) continue;
+        image_.hits[cell] |= kWarpedFilled;
         image_.range_m[cell] = range_m;
         weight_[cell] = 1;
       }
     }
   }
 
+  const SensorModel& model_;
   const ReferenceSweep& reference_;
   std::vector<Row> rows_;
   CodingGrid coding_;

@@ -9,8 +9,9 @@ std::vector<ReelIndexEntry> ReelIndex::needed_for(std::uint32_t frame) const {
   for (;;) {
     const auto entry =
         std::find_if(entries.begin(), entries.end(), [&](const ReelIndexEntry& e) { return e.frame == frame; });
-    // References that lead in a circle are no chain.
-    if (entry == entries.end() || chain.size() == entries.size()) return {};
+    // No group is longer; references that lead in a circle are no chain.
+    constexpr std::size_t kLongestGroup = 255;
+    if (entry == entries.end() || chain.size() == kLongestGroup) return {};
     chain.push_back(*entry);
     if (entry->reference_frame == frame) break;
     frame = entry->reference_frame;

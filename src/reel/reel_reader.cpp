@@ -26,7 +26,7 @@ std::optional<std::vector<ReelIndexEntry>> parse_index(std::span<const std::uint
   ByteReader reader(index_bytes);
   const auto sync = reader.get<std::uint32_t>();
   const auto count = reader.get<std::uint32_t>();
-  if (sync != kIndexSync ||
+  if (sync != kIndexSync || count > index_offset / (kPacketHeaderBytes + kChecksumBytes) ||
       index_bytes.size() != kIndexHeaderBytes + std::uint64_t{count} * kIndexEntryBytes + kChecksumBytes) {
     return {};
   }

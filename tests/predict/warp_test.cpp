@@ -81,6 +81,46 @@ TEST(Warp, ShowsARoomFromAnotherPlace) {
   }
 }
 
+// Firing order: columns from anywhere, through more than a turn.
+TEST(Warp, FindsColumnsWhereverTheSweepBegins) {
+  const SensorModel model = sensor(8);
+  const SweepGrid reference_grid = full_turn();
+  const ReferenceSweep reference =
+      reference_from(model, reference_grid, room_from(model, reference_grid, 0, 0, 0).range_m, {}, 1);
+  for (const std::uint32_t first : {0u, 900u, 2001u, 3999u}) {
+    for (const std::uint32_t ticks : {4000u, 4400u}) {
+      SweepGrid grid;
+      grid.ticks_per_turn = 4000;
+      for (std::uint32_t tick = first; tick < first + ticks; tick += 2) grid.column_tick.push_back(tick);
+      const GridImage now = room_from(model, grid, 0, 0, 0);
+      const ReferenceImage warped = warp(model, grid, reference, Pose::Identity(), 1);
+      std::size_t near = 0;
+      for (std::size_t i = 0; i < now.range_m.size(); ++i)
+        near += std::fabs(warped.range_m[i] - now.range_m[i]) < 0.05F ? 1 : 0;
+      // What comes a second time has no reference.
+      EXPECT_GT(static_cast<double>(near), 0.95 * 4000 / ticks * static_cast<double>(now.range_m.size()))
+          << first << ", " << ticks;
+    }
+  }
+}
+
+// A sensor that looks ahead only: what has left its view is gone, not at the other edge.
+TEST(Warp, PointsBesideAPartialViewAreDropped) {
+  const SensorModel model = sensor(8);
+  SweepGrid grid;
+  grid.ticks_per_turn = 4000;
+  for (std::uint32_t tick = 1000; tick < 2000; tick += 2) grid.column_tick.push_back(tick);
+  GridImage image = CodingGrid(model, grid).empty_image();
+  std::fill(image.range_m.begin(), image.range_m.end(), 10.0F);
+  const ReferenceSweep reference = reference_from(model, grid, image.range_m, {}, 1);
+  const ReferenceImage warped = warp(model, grid, reference, moved(0, 0, 0.5), 1);
+  std::size_t returns = 0;
+  for (const float range_m : warped.range_m) returns += range_m > 0 ? 1 : 0;
+  const double kept = 1 - 0.5 / (2 * kPi / 4);
+  EXPECT_NEAR(static_cast<double>(returns), kept * static_cast<double>(warped.range_m.size()),
+              0.05 * static_cast<double>(warped.range_m.size()));
+}
+
 TEST(Warp, IsTheSameForAnyNumberOfThreads) {
   const SensorModel model = sensor(16);
   const SweepGrid grid = full_turn();

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -147,13 +148,14 @@ Result<std::vector<Packet>> packets_for(ReelReader& reader, const FrameRange& wa
     print_error(*index->fault);
     written.lost_some = true;
   }
+  std::map<std::uint32_t, std::uint32_t> reference_of;
+  for (const ReelIndexEntry& entry : index->entries) reference_of[entry.frame] = entry.reference_frame;
   std::set<std::uint32_t> needed;
-  // From the last one on, so that one search finds a whole group.
-  for (auto entry = index->entries.rbegin(); entry != index->entries.rend(); ++entry) {
-    if (!wanted.contains(entry->frame) || needed.contains(entry->frame)) continue;
-    // Where a reference is not in the reel, the decoder says so.
-    needed.insert(entry->frame);
-    for (const ReelIndexEntry& before : index->needed_for(entry->frame)) needed.insert(before.frame);
+  for (const ReelIndexEntry& entry : index->entries) {
+    if (!wanted.contains(entry.frame)) continue;
+    // Until what is needed already; where a reference is not in the reel, the decoder says so.
+    for (auto at = reference_of.find(entry.frame); at != reference_of.end() && needed.insert(at->first).second;)
+      at = reference_of.find(at->second);
   }
   std::vector<Packet> packets;
   for (const ReelIndexEntry& entry : index->entries) {

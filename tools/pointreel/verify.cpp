@@ -100,6 +100,7 @@ class Verifier {
     options.method = header_.method;
     options.mixture.max_error_m = header_.max_error_m;
     options.mixture.group = header_.group;
+    options.mixture.effort = header_.effort;
     options.planes = header_.planes;
     auto encoder = Encoder::create(options, Runtime{threads_});
     if (!encoder) return encoder.error();
