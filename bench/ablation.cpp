@@ -2,7 +2,8 @@
 //
 //   ablation SWEEP... [--max-error METRES]
 //
-// Frames by themselves and frames predicted from the sweep before, each from the priors, as the codec does it.
+// Frames by themselves and frames predicted from the sweep before, each from the priors, as the codec does
+// it.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -22,12 +23,13 @@ struct Bits {
 
 struct Variant {
   Ingredients ingredients;
-  bool priors = true;       // false: the state as new
+  bool priors = true;        // false: the state as new
   bool keeps_state = false;  // from sweep to sweep
 };
 
 // All frames of `kind`; the first of a drive, which nothing can predict, is left out.
-Bits bits_of(const std::vector<TrainingDrive>& drives, const CodingKind& kind, float step_m, const Variant& variant) {
+Bits bits_of(const std::vector<TrainingDrive>& drives, const CodingKind& kind, float step_m,
+             const Variant& variant) {
   const RangeQuantiser quantiser{step_m, {}};
   Bits bits;
   for (const TrainingDrive& drive : drives) {
@@ -61,8 +63,8 @@ Bits bits_of(const std::vector<TrainingDrive>& drives, const CodingKind& kind, f
   return bits;
 }
 
-void report(const std::vector<TrainingDrive>& drives, const char* frames, const CodingKind& kind, float step_m,
-            const std::vector<std::pair<const char*, std::uint32_t>>& experts) {
+void report(const std::vector<TrainingDrive>& drives, const char* frames, const CodingKind& kind,
+            float step_m, const std::vector<std::pair<const char*, std::uint32_t>>& experts) {
   const double all = bits_of(drives, kind, step_m, {}).per_point();
   const auto print = [&](const std::string& name, const Variant& variant) {
     const Bits bits = bits_of(drives, kind, step_m, variant);
@@ -119,7 +121,8 @@ int main(int argc, char** argv) {
   CLI::App app("What each ingredient of method mixture is worth");
   std::vector<std::string> sweeps;
   double max_error_m = 0.02;
-  app.add_option("SWEEP", sweeps, "Sweeps: files, folders or globs; consecutive ones of a folder")->required();
+  app.add_option("SWEEP", sweeps, "Sweeps: files, folders or globs; consecutive ones of a folder")
+      ->required();
   app.add_option("--max-error", max_error_m, "Bound in metres; ranges have steps of twice that")
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);

@@ -41,7 +41,8 @@ class PriorMean {
     std::string line = "   ";
     for (const Number& number : numbers_) {
       const double value = number.sum / number.count;
-      const std::string item = fmt::format(" {},", std::clamp(static_cast<int>(std::lround(value)), -128, 127));
+      const std::string item =
+          fmt::format(" {},", std::clamp(static_cast<int>(std::lround(value)), -128, 127));
       if (line.size() + item.size() > 110) {
         fmt::print("{}\n", line);
         line = "   ";

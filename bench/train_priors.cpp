@@ -2,9 +2,9 @@
 //
 //   train_priors SWEEP... > src/predict/priors_data.cpp
 //
-// For each kind of frame and size of the step all sweeps are coded twice with a state that is never reset; the
-// priors are the mean of what it was at the ends of the bands in the second pass. Predicted frames have the sweep
-// before them as their reference, as it was decoded.
+// For each kind of frame and size of the step all sweeps are coded twice with a state that is never reset;
+// the priors are the mean of what it was at the ends of the bands in the second pass. Predicted frames have
+// the sweep before them as their reference, as it was decoded.
 #include <CLI/CLI.hpp>
 
 #include "predict/band_coding.h"
@@ -55,7 +55,8 @@ Means train(const std::vector<TrainingDrive>& drives, const CodingKind& kind, fl
 void train_all(const std::vector<TrainingDrive>& drives) {
   constexpr float kMaskStepM = 0.04F;
   fmt::print(
-      "// Made by bench/train_priors.\n#include \"predict/priors.h\"\n\nnamespace pointreel {{\nnamespace {{\n\n"
+      "// Made by bench/train_priors.\n#include \"predict/priors.h\"\n\nnamespace pointreel {{\nnamespace "
+      "{{\n\n"
       "// clang-format off\n");
   const struct {
     const char* name;
@@ -75,7 +76,8 @@ void train_all(const std::vector<TrainingDrive>& drives) {
   fmt::print("// clang-format on\n\n");
   for (const auto& [name, kind] : kinds) {
     fmt::print("constexpr std::span<const std::int8_t> k{}[] = {{", name);
-    for (std::size_t set = 0; set < kPriorSteps.size(); ++set) fmt::print("{}k{}{}", set > 0 ? ", " : "", name, set);
+    for (std::size_t set = 0; set < kPriorSteps.size(); ++set)
+      fmt::print("{}k{}{}", set > 0 ? ", " : "", name, set);
     fmt::print("}};\n");
   }
   fmt::print(
@@ -96,7 +98,8 @@ void train_all(const std::vector<TrainingDrive>& drives) {
 int main(int argc, char** argv) {
   CLI::App app("Trains the priors of method mixture");
   std::vector<std::string> sweeps;
-  app.add_option("SWEEP", sweeps, "Sweeps: files, folders or globs; consecutive ones of a folder")->required();
+  app.add_option("SWEEP", sweeps, "Sweeps: files, folders or globs; consecutive ones of a folder")
+      ->required();
   CLI11_PARSE(app, argc, argv);
   pointreel::train_all(pointreel::training_drives(sweeps));
   return 0;

@@ -13,7 +13,8 @@ constexpr const char* kPath = "example.reel";
 
 bool record(int sweeps) {
   pointreel::EncoderOptions options;
-  options.mixture.group = 4;  // the first sweep of a group decodes by itself, each other one after the one before
+  options.mixture.group =
+      4;  // the first sweep of a group decodes by itself, each other one after the one before
   auto encoder = pointreel::Encoder::create(options);
   if (!encoder) return false;
   std::ofstream file(kPath, std::ios::binary);

@@ -27,7 +27,8 @@ enum class Method : std::uint8_t {
   mixture = 2,  // every point within a bound: sensor-grid ranges coded by a mixture of predictors
 };
 
-// How much work `mixture` puts into a sweep: more work, fewer bits (docs/EFFORT.md). The decoder does the same.
+// How much work `mixture` puts into a sweep: more work, fewer bits (docs/EFFORT.md). The decoder does the
+// same.
 enum class Effort : std::uint8_t { fast = 0, balanced = 1, max = 2 };
 
 // How the ranges of cells that lie on no plane are kept (the paper's residual map).
@@ -84,10 +85,10 @@ struct EncoderOptions {
 // What a decoder must know before the first packet.
 struct StreamHeader {
   Method method = Method::mixture;
-  double max_error_m = 0.02;  // `mixture` only
-  int group = 10;             // `mixture` only
+  double max_error_m = 0.02;         // `mixture` only
+  int group = 10;                    // `mixture` only
   Effort effort = Effort::balanced;  // `mixture` only
-  PlanesOptions planes;       // `planes` only, with residual_step_m resolved
+  PlanesOptions planes;              // `planes` only, with residual_step_m resolved
 
   // `mixture`: largest distance of a point to its own decoded position. `planes`: largest range error of a
   // kept point: the threshold, or half the residual step if that is more (decoded positions are float32;

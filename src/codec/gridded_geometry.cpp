@@ -7,10 +7,10 @@
 #include <string>
 
 #include "base/parallel.h"
-#include "predict/coding_grid.h"
 #include "codec/corrections.h"
 #include "codec/error_budget.h"
 #include "codec/sections.h"
+#include "predict/coding_grid.h"
 #include "scatter/stray_list.h"
 #include "sensor/burst_sort.h"
 #include "sensor/order_moves.h"
@@ -178,8 +178,8 @@ EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud&
   }
   GridImage image = coding.image_of(range_of_cell_m, threads);
   ByteWriter image_bytes;
-  auto states =
-      encode_image({model, sweep.grid, quantiser, effort, threads}, prediction, image, image_bytes, statistics);
+  auto states = encode_image({model, sweep.grid, quantiser, effort, threads}, prediction, image, image_bytes,
+                             statistics);
 
   // The points as the decoder will have them, in its sequence.
   range_of_cell_m = coding.ranges_of_cells(image, threads);

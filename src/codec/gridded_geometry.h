@@ -58,8 +58,8 @@ struct DecodedGeometry {
   std::vector<Point3f> positions;
 };
 
-// `reference`: nullptr for a frame by itself. Error: truncated or corrupt; also when there are not `points_out`
-// points.
+// `reference`: nullptr for a frame by itself. Error: truncated or corrupt; also when there are not
+// `points_out` points.
 Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size_t points_out,
                                        const ReferenceSweep* reference, ByteReader& reader);
 

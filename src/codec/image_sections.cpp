@@ -12,7 +12,8 @@
 namespace pointreel {
 namespace {
 
-ReferenceImage reference_image(const ImageSetting& setting, const ReferenceSweep& reference, const Pose& T_ref_cur) {
+ReferenceImage reference_image(const ImageSetting& setting, const ReferenceSweep& reference,
+                               const Pose& T_ref_cur) {
   return warp(setting.model, setting.grid, reference, T_ref_cur, setting.threads);
 }
 
@@ -27,8 +28,8 @@ std::vector<BandState> starting_states(const CodingKind& kind, float step_m, con
 
 }  // namespace
 
-std::vector<BandState> encode_image(const ImageSetting& setting, const Prediction* prediction, GridImage& image,
-                                    ByteWriter& writer, FrameStatistics& statistics) {
+std::vector<BandState> encode_image(const ImageSetting& setting, const Prediction* prediction,
+                                    GridImage& image, ByteWriter& writer, FrameStatistics& statistics) {
   const CodingKind kind{prediction != nullptr, setting.effort};
   ReferenceImage reference;
   if (prediction != nullptr) {
@@ -54,8 +55,9 @@ std::vector<BandState> encode_image(const ImageSetting& setting, const Predictio
   return states;
 }
 
-Result<std::vector<BandState>> decode_image(const ImageSetting& setting, const ReferenceSweep* reference_sweep,
-                                            ByteReader& reader, GridImage& image) {
+Result<std::vector<BandState>> decode_image(const ImageSetting& setting,
+                                            const ReferenceSweep* reference_sweep, ByteReader& reader,
+                                            GridImage& image) {
   const CodingKind kind{reference_sweep != nullptr, setting.effort};
   Pose T_ref_cur = Pose::Identity();
   if (reference_sweep != nullptr) {

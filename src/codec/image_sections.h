@@ -1,5 +1,5 @@
-// The range image of a sweep as sections of its payload: from an earlier sweep where there is one, by itself where
-// there is none.
+// The range image of a sweep as sections of its payload: from an earlier sweep where there is one, by itself
+// where there is none.
 //
 //   pose of the sweep in the reference (predicted frames) -> warped reference -> bands, in parallel
 #pragma once
@@ -27,10 +27,10 @@ struct Prediction {
   Pose T_ref_cur = Pose::Identity();  // the encoder's: it is rounded for the stream
 };
 
-// `prediction`: nullptr for a frame by itself. The ranges are replaced by what the decoder will see. Gives back what
-// the bands have taught, empty for a frame by itself (ReferenceSweep::states).
-std::vector<BandState> encode_image(const ImageSetting& setting, const Prediction* prediction, GridImage& image,
-                                    ByteWriter& writer, FrameStatistics& statistics);
+// `prediction`: nullptr for a frame by itself. The ranges are replaced by what the decoder will see. Gives
+// back what the bands have taught, empty for a frame by itself (ReferenceSweep::states).
+std::vector<BandState> encode_image(const ImageSetting& setting, const Prediction* prediction,
+                                    GridImage& image, ByteWriter& writer, FrameStatistics& statistics);
 
 // `reference`: nullptr for a frame by itself. Fills an empty image. Error: truncated or corrupt.
 Result<std::vector<BandState>> decode_image(const ImageSetting& setting, const ReferenceSweep* reference,

@@ -59,7 +59,8 @@ class MixtureDecoder final : public Decoder::Implementation {
       if (!model) return model.error();
       model_ = *std::move(model);
       model_frame_ = packet.frame;
-    } else if (needs_frame && (coding == SweepCoding::gridded ? model_frame_ : reference_frame_) != packet.reference_frame) {
+    } else if (needs_frame &&
+               (coding == SweepCoding::gridded ? model_frame_ : reference_frame_) != packet.reference_frame) {
       return Error{ErrorCode::corrupt, "its reference frame " + std::to_string(packet.reference_frame) +
                                            " was not decoded before it"};
     }
@@ -68,12 +69,14 @@ class MixtureDecoder final : public Decoder::Implementation {
       return Error{ErrorCode::corrupt, "effort fast predicts no sweep from another"};
     ReferenceSweep reference;
     if (coding == SweepCoding::predicted)
-      reference = reference_from(model_, last_image_.grid, last_image_.image.range_m, last_image_.states, threads_);
+      reference =
+          reference_from(model_, last_image_.grid, last_image_.image.range_m, last_image_.states, threads_);
 
-    auto geometry = coding == SweepCoding::scattered
-                        ? decode_scattered_sweep(packet, reader)
-                        : decode_gridded({model_, header_.max_error_m, header_.effort, threads_}, packet.points_out,
-                                         coding == SweepCoding::predicted ? &reference : nullptr, reader);
+    auto geometry =
+        coding == SweepCoding::scattered
+            ? decode_scattered_sweep(packet, reader)
+            : decode_gridded({model_, header_.max_error_m, header_.effort, threads_}, packet.points_out,
+                             coding == SweepCoding::predicted ? &reference : nullptr, reader);
     if (!geometry) return geometry.error();
     const std::size_t field_bytes = ByteReader(reader).rest().size();  // a copy: rest() takes them
     for (const Point3f& position : geometry->positions) {

@@ -12,9 +12,10 @@ namespace pointreel {
 
 class SweepAlignment {
  public:
-  // The sweep that the next one is registered against: as measured, for coarse steps of range bend the ground the
-  // same way in every sweep, which looks like standing still (docs/REGISTRATION.md).
-  void set_reference(const SensorModel& model, const GriddedSweep& sweep, const std::optional<Pose>& T_world_sensor) {
+  // The sweep that the next one is registered against: as measured, for coarse steps of range bend the ground
+  // the same way in every sweep, which looks like standing still (docs/REGISTRATION.md).
+  void set_reference(const SensorModel& model, const GriddedSweep& sweep,
+                     const std::optional<Pose>& T_world_sensor) {
     reference_.emplace(model, sweep.grid);
     reference_m_ = ranges_by_cell(model, sweep);
     T_world_reference_ = T_world_sensor;

@@ -22,8 +22,7 @@ bool code(Coder& mask, Coder& ranges, const BandSetting& setting, const Band& ba
   const CodingKind& kind = setting.kind;
   if (kind.effort == Effort::fast)
     return code_band<Effort::fast, false>(mask, ranges, setting, band, image, state);
-  if (!kind.predicted)
-    return code_band<Effort::balanced, false>(mask, ranges, setting, band, image, state);
+  if (!kind.predicted) return code_band<Effort::balanced, false>(mask, ranges, setting, band, image, state);
   if (kind.effort == Effort::balanced)
     return code_band<Effort::balanced, true>(mask, ranges, setting, band, image, state);
   return code_band<Effort::max, true>(mask, ranges, setting, band, image, state);

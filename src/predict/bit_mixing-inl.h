@@ -1,6 +1,6 @@
 // Mixing several predictions of one bit: each is stretched to ln(p / (1 - p)), a weighted sum of those is
-// squashed back to a probability, and the weights follow the gradient of the code length. As bit_mixer.h, but in
-// floats: fewer instructions, and + and * in one fixed order still give the same bits everywhere.
+// squashed back to a probability, and the weights follow the gradient of the code length. As bit_mixer.h, but
+// in floats: fewer instructions, and + and * in one fixed order still give the same bits everywhere.
 
 #if defined(POINTREEL_PREDICT_BIT_MIXING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef POINTREEL_PREDICT_BIT_MIXING_INL_H_
@@ -34,7 +34,9 @@ inline constexpr auto kSquashTable = [] {
   std::array<std::uint16_t, bit_mixer_detail::kSquash.size()> table{};
   for (std::size_t i = 0; i < table.size(); ++i) {
     const std::uint32_t p = bit_mixer_detail::kSquash[i];
-    table[i] = static_cast<std::uint16_t>(p < kMinProbability ? kMinProbability : p > 65536 - kMinProbability ? 65536 - kMinProbability : p);
+    table[i] = static_cast<std::uint16_t>(p < kMinProbability           ? kMinProbability
+                                          : p > 65536 - kMinProbability ? 65536 - kMinProbability
+                                                                        : p);
   }
   return table;
 }();
@@ -48,14 +50,16 @@ POINTREEL_INLINE float clamped(float x, float least, float most) {
 // ln(p / (1 - p)), within +-8.
 POINTREEL_INLINE float stretched(float p) {
   constexpr auto kEntries = static_cast<float>(kStretchTable.size());
-  return kStretchTable[static_cast<std::uint32_t>(static_cast<std::int32_t>(clamped(p * kEntries, 0, kEntries - 1)))];
+  return kStretchTable[static_cast<std::uint32_t>(
+      static_cast<std::int32_t>(clamped(p * kEntries, 0, kEntries - 1)))];
 }
 POINTREEL_INLINE float stretched(const CountedBit& bit) {
   return kStretchTable[bit.p_one() >> (kProbabilityBits - bit_mixer_detail::kStretchIndexBits)];
 }
 
 template <std::size_t kInputs, std::size_t kWeights>
-POINTREEL_INLINE Probability16 mix(const MixerWeights<kWeights>& mixer, const std::array<float, kInputs>& inputs) {
+POINTREEL_INLINE Probability16 mix(const MixerWeights<kWeights>& mixer,
+                                   const std::array<float, kInputs>& inputs) {
   static_assert(kInputs <= kWeights);
   constexpr auto kMost = static_cast<float>(kMaxStretch);
   float sum = mixer.weight[0] * inputs[0];
@@ -64,11 +68,11 @@ POINTREEL_INLINE Probability16 mix(const MixerWeights<kWeights>& mixer, const st
   return kSquashTable[static_cast<std::uint32_t>(static_cast<std::int32_t>(index))];
 }
 
-// `p_one` is what mix() gave for these inputs. Weights move by rate * error * input: at most rate * 8 a bit, so
-// that no image of legal size makes them overflow.
+// `p_one` is what mix() gave for these inputs. Weights move by rate * error * input: at most rate * 8 a bit,
+// so that no image of legal size makes them overflow.
 template <std::size_t kInputs, std::size_t kWeights>
-POINTREEL_INLINE void learn(MixerWeights<kWeights>& mixer, const std::array<float, kInputs>& inputs, Probability16 p_one,
-                      bool bit, float rate) {
+POINTREEL_INLINE void learn(MixerWeights<kWeights>& mixer, const std::array<float, kInputs>& inputs,
+                            Probability16 p_one, bool bit, float rate) {
   const float error =
       static_cast<float>((bit ? 65536 : 0) - static_cast<std::int32_t>(p_one)) * (rate * (1.F / 65536));
   for (std::size_t i = 0; i < kInputs; ++i) mixer.weight[i] = mixer.weight[i] + error * inputs[i];

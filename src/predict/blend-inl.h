@@ -63,8 +63,8 @@ POINTREEL_INLINE Int8 error_classes(const Float8& squared_steps) {
 // The blend is the mean of the proposals but lane 0, weighted by the inverse fourth power of their recent
 // errors. It replaces lane 0 of `proposals`.
 template <std::size_t kExperts>
-HWY_NOINLINE void blend(const ErrorPlanes<kExperts>& errors, const Neighbourhood& cells, int step, float step_m,
-                      Proposals<kExperts>& proposals, BlendedProposals<kExperts>& blended) {
+HWY_NOINLINE void blend(const ErrorPlanes<kExperts>& errors, const Neighbourhood& cells, int step,
+                        float step_m, Proposals<kExperts>& proposals, BlendedProposals<kExperts>& blended) {
   constexpr float kUnknownSquaredSteps = 30;  // the experts' error where no neighbour is known
   constexpr std::ptrdiff_t kPitch = ErrorPlanes<kExperts>::kPitch;
   const NeighbourWeights weights(cells);
@@ -116,7 +116,7 @@ HWY_NOINLINE void blend(const ErrorPlanes<kExperts>& errors, const Neighbourhood
 // Squared errors of the proposals at what was decoded, for later cells.
 template <std::size_t kExperts>
 HWY_NOINLINE void store_errors(const Proposals<kExperts>& proposals, const Float8& decoded_m, int step,
-                             ErrorPlanes<kExperts>& errors) {
+                               ErrorPlanes<kExperts>& errors) {
   float* to = errors.at(step);
   for (std::size_t k = 0; k < kExperts; ++k) {
     const Float8 error_m = proposals.range_m[k] - decoded_m;

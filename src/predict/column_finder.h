@@ -28,8 +28,9 @@ class ColumnFinder {
     }
   }
 
-  // The column at an azimuth of `turn` turns, in [0, 1], as a number between its neighbours; negative: it lies
-  // farther than kMostBeyond columns from all. Of two turns the first that has it. There must be a column.
+  // The column at an azimuth of `turn` turns, in [0, 1], as a number between its neighbours; negative: it
+  // lies farther than kMostBeyond columns from all. Of two turns the first that has it. There must be a
+  // column.
   float position(float turn) const {
     const float first_turn = turn_of_column_.front();
     const float in_first = position_of(turn);
@@ -57,7 +58,8 @@ class ColumnFinder {
     while (c + 1 < turn_of_column_.size() && turn_of_column_[c + 1] <= turn) ++c;
     const bool last = c + 1 == turn_of_column_.size();
     if (last && c == 0) return std::fabs(turn - turn_of_column_[0]) < kLoneColumnTurns ? 0.0F : -1.0F;
-    const float step = last ? turn_of_column_[c] - turn_of_column_[c - 1] : turn_of_column_[c + 1] - turn_of_column_[c];
+    const float step =
+        last ? turn_of_column_[c] - turn_of_column_[c - 1] : turn_of_column_[c + 1] - turn_of_column_[c];
     const float beyond = (turn - turn_of_column_[c]) / step;
     if (beyond < -kMostBeyond || (last && beyond > kMostBeyond)) return -1;
     return static_cast<float>(c) + (beyond > 0 ? beyond : 0);

@@ -26,7 +26,7 @@ enum KeyExpert : std::uint8_t {
   kKeyLeft = 4,  // ranges seen nearby: the surfaces that may go on here
   kKeyAbove = 5,
   kKeyAboveRight = 6,
-  kKeyEdge = 7,  // behind the last depth edge of the row
+  kKeyEdge = 7,   // behind the last depth edge of the row
   kKeyLine2 = 8,  // the last two returns of the row go on, in inverse range
   kKeyStep = 9,   // the step from above to above right, from the cell left
   kKeyAboveLeft = 10,
@@ -44,14 +44,14 @@ enum PredictedExpert : std::uint8_t {
   kPredictedAbove = 5,
   kPredictedAboveRight = 6,
   kPredictedEdge = 7,
-  kReferenceHere = 8,      // the warped reference's range
+  kReferenceHere = 8,  // the warped reference's range
   kPredictedLeft2 = 9,
   kReferenceLeftStep = 10,  // its step from the cell left
   kPredictedLine2 = 11,
   kReferenceRight = 12,  // its neighbours: what moved
   kReferenceLeft = 13,
   kReferenceBelow = 14,
-  kReferenceMean = 15,  // mean of three cells, plus the mean difference to what is coded around
+  kReferenceMean = 15,       // mean of three cells, plus the mean difference to what is coded around
   kReferenceShifted = 16,    // the cell itself, plus that difference
   kReferenceAboveStep = 17,  // the step from the cell above
   kPredictedStep = 18,
@@ -83,7 +83,8 @@ struct Surroundings {
   Float8 left, left2, above, above_left, above_right, above_right2;
   Float8 start;  // where nothing better is known; positive
 
-  POINTREEL_INLINE Surroundings(const Neighbourhood& cells, const RowMemory& memory, const Float8& reference_m)
+  POINTREEL_INLINE Surroundings(const Neighbourhood& cells, const RowMemory& memory,
+                                const Float8& reference_m)
       : left(memory.last_m()),
         left2(memory.before_last_m()),
         above(cells.range_m(0, -1)),
@@ -96,7 +97,9 @@ struct Surroundings {
       start = select(seen(guess), guess, start);
   }
 
-  POINTREEL_INLINE Float8 or_start(const Float8& range_m) const { return select(seen(range_m), range_m, start); }
+  POINTREEL_INLINE Float8 or_start(const Float8& range_m) const {
+    return select(seen(range_m), range_m, start);
+  }
   // Extrapolations beyond these shares of the range left of the cell are noise.
   POINTREEL_INLINE Float8 if_likely(const Float8& range_m) const {
     const Mask<8> likely = (0.6F * start <= range_m) & (range_m <= 1.5F * start) & seen(range_m);
@@ -159,8 +162,9 @@ POINTREEL_INLINE Float8 mean_difference(const Neighbourhood& cells, const Refere
 }
 
 template <std::size_t kExperts>
-HWY_NOINLINE Proposals<kExperts> propose_for_predicted_frame(const Neighbourhood& cells, const RowMemory& memory,
-                                                           const ReferenceView& reference) {
+HWY_NOINLINE Proposals<kExperts> propose_for_predicted_frame(const Neighbourhood& cells,
+                                                             const RowMemory& memory,
+                                                             const ReferenceView& reference) {
   const Float8 here = reference.range_m(0);
   const Float8 west = reference.range_m(-1), east = reference.range_m(1);
   const Surroundings around(cells, memory, here);

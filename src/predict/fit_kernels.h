@@ -4,10 +4,10 @@
 namespace pointreel {
 
 struct FitKernels {
-  static constexpr int kHere = 8, kAbove = 8;    // cells of the row itself, and of each of the two rows above
-  static constexpr int kFirstHere = -8;          // column of the first one seen from the cell
+  static constexpr int kHere = 8, kAbove = 8;  // cells of the row itself, and of each of the two rows above
+  static constexpr int kFirstHere = -8;        // column of the first one seen from the cell
   static constexpr int kFirstAbove = -4;
-  static constexpr float kColumnsPerRow = 3;     // rows are farther apart than columns on most sensors
+  static constexpr float kColumnsPerRow = 3;  // rows are farther apart than columns on most sensors
 
   float plane_here[kHere] = {}, plane_above[kAbove] = {}, plane_above2[kAbove] = {};
   float line[kHere] = {};

@@ -1,4 +1,5 @@
-// Which cells of the sensor grid hold a return: one bit per cell, coded along the wavefront between the ranges.
+// Which cells of the sensor grid hold a return: one bit per cell, coded along the wavefront between the
+// ranges.
 //
 // When a cell's bit is coded both sides know the hits and the decoded ranges of all cells before it, and all
 // of the reference. Adaptive bits, each in a context of its own, predict it, and a mixer weighs them.

@@ -22,7 +22,7 @@ namespace HWY_NAMESPACE {
 
 // What is coded, as far as the contexts look. A log range has 2048 steps per octave (linear within), 0: none.
 struct HitMaskPlanes {
-  SkewedPlane<std::int32_t> pattern;         // the row's bits up to the cell, its own in bit 0
+  SkewedPlane<std::int32_t> pattern;  // the row's bits up to the cell, its own in bit 0
   SkewedPlane<std::int32_t> log_range;
   SkewedPlane<std::int32_t> column_range;    // log range of the last hit in the column
   SkewedPlane<std::int32_t> column_history;  // the column's last eight bits, its own in bit 0
@@ -38,10 +38,12 @@ struct HitMaskPlanes {
   }
 
   HWY_NOINLINE void remember(int step, const Int8& hits, const Float8& range_m) {
-    // The float's exponent and 11 bits of its mantissa, 1 at 2^-4 m; what is nearer or beyond 2^12 m is clamped.
+    // The float's exponent and 11 bits of its mantissa, 1 at 2^-4 m; what is nearer or beyond 2^12 m is
+    // clamped.
     constexpr std::int32_t kLowest = (127 - 4) << 11;
-    const Int8 code = larger(smaller(shifted_right<12>(bits_of(range_m)) - all_ints<8>(kLowest), all_ints<8>(0x7FFF)),
-                             all_ints<8>(1));
+    const Int8 code =
+        larger(smaller(shifted_right<12>(bits_of(range_m)) - all_ints<8>(kLowest), all_ints<8>(0x7FFF)),
+               all_ints<8>(1));
     const Int8 range = where(as_int_mask(all<8>(kSmallestRangeM) <= range_m), code);
     store(range, log_range.at(step));
     store(select(range > all_ints<8>(0), range, load_ints<8>(column_range.at(step, 0, -1))),
@@ -86,7 +88,8 @@ template <std::size_t kCells>
 inline constexpr auto kShareClasses = [] {
   std::array<std::uint8_t, kCells + 1> classes{};
   for (std::size_t hits = 0; hits <= kCells; ++hits)
-    classes[hits] = static_cast<std::uint8_t>(hits == kCells ? 7 : std::min<std::size_t>(6, hits * 7 / kCells));
+    classes[hits] =
+        static_cast<std::uint8_t>(hits == kCells ? 7 : std::min<std::size_t>(6, hits * 7 / kCells));
   return classes;
 }();
 
@@ -112,13 +115,15 @@ class HitMaskContexts {
     const Int8 north_east = shifted_right<kAhead - 1>(above) & one;
     const Int8 north2 = shifted_right<kAhead2>(above2) & one;
     const Int8 range_above = load_ints<8>(planes.column_range.at(step, 0, -1));
-    const auto log_range = [&](int columns_right, int rows_down)
-                               HWY_ATTR { return load_ints<8>(planes.log_range.at(step, columns_right, rows_down)); };
+    const auto log_range = [&](int columns_right, int rows_down) HWY_ATTR {
+      return load_ints<8>(planes.log_range.at(step, columns_right, rows_down));
+    };
 
     const Int8 near = west | shifted_left<1>(north) | shifted_left<2>(north2);
     store(near, slot[HitMaskState::kRow]);
     const Int8 last_range = select(row_range > all_ints<8>(0), row_range, range_above);
-    store(near | shifted_left<3>(range_class(last_range)) | shifted_left<7>(order_class(range_above, row_range)),
+    store(near | shifted_left<3>(range_class(last_range)) |
+              shifted_left<7>(order_class(range_above, row_range)),
           slot[HitMaskState::kRange]);
     store(shifted_left<3>(west) | shifted_left<4>(above & all_ints<8>((1 << (kAhead + 2)) - 1)),
           slot[HitMaskState::kRuns]);
@@ -134,7 +139,8 @@ class HitMaskContexts {
           mixer);
     store(here, pattern_);
     // The last three of the row, and in the row above those from one column left to two right.
-    const Int8 around = (here & all_ints<8>(7)) | shifted_left<3>(shifted_right<kAhead - 2>(above) & all_ints<8>(15));
+    const Int8 around =
+        (here & all_ints<8>(7)) | shifted_left<3>(shifted_right<kAhead - 2>(above) & all_ints<8>(15));
     store(where(around == all_ints<8>(127), one), sure_);
     store((above & all_ints<8>(kWindowBits)) | shifted_left<kWindow>(above2 & all_ints<8>(kWindow2Bits)),
           window_);
@@ -146,17 +152,18 @@ class HitMaskContexts {
     const Int8 coded = load_ints<8>(planes.pattern.at(step, -1));
     const Int8 coded_above = load_ints<8>(planes.pattern.at(step, kAhead, -1));
     const Int8 here = reference.hits(0), west = reference.hits(-1), east = reference.hits(1);
-    const auto warped = [&](const Int8& hits)
-                            HWY_ATTR { return where((hits & all_ints<8>(kWarpedHit | kWarpedFilled)) > all_ints<8>(0), one); };
+    const auto warped = [&](const Int8& hits) HWY_ATTR {
+      return where((hits & all_ints<8>(kWarpedHit | kWarpedFilled)) > all_ints<8>(0), one);
+    };
     const auto previous = [&](const Int8& hits) HWY_ATTR { return shifted_right<2>(hits) & one; };
     static_assert(kPreviousHit == 1 << 2);
     store(where(warped(here) == one, load_ints<8>(sure_)), sure_);
     const Int8 north_coded = shifted_right<kAhead>(coded_above);
     const Int8 north_east_coded = shifted_right<kAhead - 1>(coded_above);
     store((here & all_ints<8>(7)) | shifted_left<3>(previous(west)) | shifted_left<4>(previous(east)) |
-              shifted_left<5>(coded & one) | shifted_left<6>(north_coded & one) | shifted_left<7>(warped(west)) |
-              shifted_left<8>(warped(east)) | shifted_left<9>(warped(reference.hits(0, 1))) |
-              shifted_left<10>(north_east_coded & one),
+              shifted_left<5>(coded & one) | shifted_left<6>(north_coded & one) |
+              shifted_left<7>(warped(west)) | shifted_left<8>(warped(east)) |
+              shifted_left<9>(warped(reference.hits(0, 1))) | shifted_left<10>(north_east_coded & one),
           slot[HitMaskState::kReference]);
     // Whether the reference was right about a neighbour.
     const auto differs = [&](const Int8& bit, const Int8& hits)
@@ -164,8 +171,8 @@ class HitMaskContexts {
     store((here & all_ints<8>(7)) | shifted_left<3>(differs(coded, west)) |
               shifted_left<4>(differs(shifted_right<1>(coded), reference.hits(-2))) |
               shifted_left<5>(differs(north_coded, reference.hits(0, -1))) |
-              shifted_left<6>(differs(north_east_coded, reference.hits(1, -1))) | shifted_left<7>(coded & one) |
-              shifted_left<8>(warped(west)) | shifted_left<9>(warped(east)),
+              shifted_left<6>(differs(north_east_coded, reference.hits(1, -1))) |
+              shifted_left<7>(coded & one) | shifted_left<8>(warped(west)) | shifted_left<9>(warped(east)),
           slot[HitMaskState::kAgreement]);
     store((north_coded & one) | shifted_left<1>(north_east_coded & one) | shifted_left<2>(coded & one) |
               shifted_left<3>(warped(here)) | shifted_left<4>(previous(here)),
@@ -187,7 +194,11 @@ class HitMaskContexts {
     const std::size_t in_row = hits(pattern_[cell] & 15);
     return kShareClasses<8>[hits(column_history_[cell])] |
            static_cast<std::size_t>(kShareClasses<kWindow + kWindow2>[hits(window_[cell])]) << 3 |
-           (in_row == 4 ? 3U : in_row == 0 ? 0U : in_row > 2 ? 2U : 1U) << 6;
+           (in_row == 4   ? 3U
+            : in_row == 0 ? 0U
+            : in_row > 2  ? 2U
+                          : 1U)
+               << 6;
   }
 
   alignas(32) std::int32_t slot[HitMaskState::kContexts][Wavefront::kRows];

@@ -1,5 +1,5 @@
-// Floats<N>, Ints<N>: N numbers as one value, in as few SIMD registers as the processor allows (at most 8 lanes
-// each).
+// Floats<N>, Ints<N>: N numbers as one value, in as few SIMD registers as the processor allows (at most 8
+// lanes each).
 //
 // Compiled once per instruction set by Highway (see band_coding.cpp). Every operation is IEEE, lane by lane,
 // and sums have one fixed order, so that all instruction sets compute the same bits.
@@ -271,15 +271,15 @@ POINTREEL_INLINE IntMask<N> as_int_mask(const Mask<N>& mask) {
                               HWY_ATTR { return hn::RebindMask(typename Ints<N>::Tag(), mask.part[i]); });
 }
 
-// Turns kGroups * 4 rows of 8 lanes into 8 rows of kGroups * 4 lanes: store_turned() takes four of the rows at
-// a time, load_turned() gives one lane's.
+// Turns kGroups * 4 rows of 8 lanes into 8 rows of kGroups * 4 lanes: store_turned() takes four of the rows
+// at a time, load_turned() gives one lane's.
 template <std::size_t kGroups>
 struct TurnedLanes {
   alignas(64) float lanes[kGroups][8][4];
 };
 template <std::size_t kGroups>
 POINTREEL_INLINE void store_turned(const Float8& a, const Float8& b, const Float8& c, const Float8& d,
-                             std::size_t group, TurnedLanes<kGroups>& turned) {
+                                   std::size_t group, TurnedLanes<kGroups>& turned) {
   const Float8::Tag tag;
   for (std::size_t i = 0; i < Float8::kParts; ++i) {
 #if HWY_TARGET == HWY_SCALAR

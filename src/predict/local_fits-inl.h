@@ -55,7 +55,7 @@ struct RowSums {
 // The plane's value at the cell itself, from u = a + b x + c y, by Cramer's rule for a; y counts rows
 // downwards, kY columns a row.
 POINTREEL_INLINE Float8 plane_at_cell(const RowSums& here, const RowSums& above, const RowSums& above2,
-                                const Float8& offset) {
+                                      const Float8& offset) {
   constexpr float kRidge = 1e-2F;  // keeps slopes small where they cannot be told
   constexpr float kSmallestDeterminant = 1e-9F;
   constexpr float kY = FitKernels::kColumnsPerRow;
@@ -72,12 +72,14 @@ POINTREEL_INLINE Float8 plane_at_cell(const RowSums& here, const RowSums& above,
   const Float8 minor1 = v1 * m22 - m12 * v2;
   const Float8 minor2 = v1 * m12 - m11 * v2;
   const Float8 determinant = m00 * minor0 - m01 * (m01 * m22 - m12 * m02) + m02 * (m01 * m12 - m11 * m02);
-  const Float8 value = (v0 * minor0 - m01 * minor1 + m02 * minor2) / larger(determinant, all<8>(kSmallestDeterminant));
+  const Float8 value =
+      (v0 * minor0 - m01 * minor1 + m02 * minor2) / larger(determinant, all<8>(kSmallestDeterminant));
   return where(all<8>(kSmallestDeterminant) <= determinant, value + offset);
 }
 
 // `reference_m`: range of the surface, `above_m`: range of the cells above or 0.
-HWY_NOINLINE inline LocalFits fit_locally(const Neighbourhood& cells, const Float8& reference_m, const Float8& above_m) {
+HWY_NOINLINE inline LocalFits fit_locally(const Neighbourhood& cells, const Float8& reference_m,
+                                          const Float8& above_m) {
   const FitKernels& kernels = kFitKernels;
   const Similarity similar(reference_m);
   const Similarity similar_above(above_m);
@@ -110,11 +112,13 @@ HWY_NOINLINE inline LocalFits fit_locally(const Neighbourhood& cells, const Floa
     constexpr float kSmallestDeterminant = 1e-9F;
     const Float8 wxx = line.wxx + all<8>(0.5F);
     const Float8 determinant = line.w * wxx - line.wx * line.wx;
-    const Float8 value = (line.wu * wxx - line.wxu * line.wx) / larger(determinant, all<8>(kSmallestDeterminant));
+    const Float8 value =
+        (line.wu * wxx - line.wxu * line.wx) / larger(determinant, all<8>(kSmallestDeterminant));
     fits.line = where(all<8>(kSmallestDeterminant) <= determinant, value + inverse_reference);
   }
   const Mask<8> has_parallel = (all<8>(kSmallestRangeM) <= above_m) & (all<8>(1e-3F) <= parallel_weight);
-  fits.parallel = where(has_parallel, cells.inverse_range(0, -1) + parallel_step / larger(parallel_weight, all<8>(1e-3F)));
+  fits.parallel = where(has_parallel,
+                        cells.inverse_range(0, -1) + parallel_step / larger(parallel_weight, all<8>(1e-3F)));
   return fits;
 }
 

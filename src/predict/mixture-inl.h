@@ -38,7 +38,8 @@ class Mixture {
     POINTREEL_INLINE Border() {}
   };
 
-  POINTREEL_INLINE Mixture(const MixtureState& state, const BlendedProposals<kExperts>& blended, std::size_t cell)
+  POINTREEL_INLINE Mixture(const MixtureState& state, const BlendedProposals<kExperts>& blended,
+                           std::size_t cell)
       : proposals_m_(load_turned<kExperts>(blended.range_m, cell)),
         error_class_(static_cast<std::size_t>(blended.error_class[cell])) {
     const MixtureState::PerClass& per_class = state.classes[error_class_];
@@ -71,12 +72,14 @@ class Mixture {
     const Lanes steepness = larger(smaller(slope / p, one), all<kExperts>(-4));
     const Lanes joint = weight_ * p;
     const Lanes responsibility = joint * all<kExperts>(1 / sum(joint));
-    const Lanes weight = clamped(
-        weight_ * (one + ingredients.weight_rate * (responsibility - per_total_weight_ * weight_)), 1e-4F, 1e4F);
+    const Lanes weight =
+        clamped(weight_ * (one + ingredients.weight_rate * (responsibility - per_total_weight_ * weight_)),
+                1e-4F, 1e4F);
     MixtureState::PerClass& per_class = state.classes[error_class_];
     store(weight, per_class.weight.data());
     per_class.per_total_weight = 1 / sum(weight);
-    store(clamped(learnt_inverse_scale_ * (one + ingredients.scale_rate * responsibility * steepness), 1e-4F, 1e3F),
+    store(clamped(learnt_inverse_scale_ * (one + ingredients.scale_rate * responsibility * steepness), 1e-4F,
+                  1e3F),
           per_class.inverse_scale.data());
   }
 

@@ -1,4 +1,5 @@
-// What the models know before their first sweep: trained offline by bench/train_priors, and part of the format.
+// What the models know before their first sweep: trained offline by bench/train_priors, and part of the
+// format.
 #pragma once
 
 #include <array>
@@ -24,8 +25,8 @@ constexpr std::size_t prior_set(float step_m) {
 }
 
 // A table has one number for each thing that visit_range_state() or visit_hit_mask_state() shows:
-// an adaptive bit: 64 steps of 1/4 in ln(p / (1 - p)), and in the lowest two bits how many bits it counts for;
-// a mixer's weight: in units of 1/kPriorsPerWeight; a logarithm: in eighths of an octave.
+// an adaptive bit: 64 steps of 1/4 in ln(p / (1 - p)), and in the lowest two bits how many bits it counts
+// for; a mixer's weight: in units of 1/kPriorsPerWeight; a logarithm: in eighths of an octave.
 inline constexpr int kPriorStep = 64;  // in Stretch units
 inline constexpr std::array<std::uint8_t, 4> kPriorCounts = {0, 3, 10, 30};
 inline constexpr int kPriorsPerWeight = 32;

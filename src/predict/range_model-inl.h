@@ -68,7 +68,8 @@ class RangeModel {
     const float step_m = step_m_;
     const float blend_m = blended_.blend_m[cell];
     const float origin_m = on_lattice_ ? on_lattice(blend_m, lattice_phase_m_[cell]) : blend_m;
-    const StepContext context = contexts_.of(cell, row, blended_.error_class[cell], blended_.spread_class[cell]);
+    const StepContext context =
+        contexts_.of(cell, row, blended_.error_class[cell], blended_.spread_class[cell]);
     const std::int32_t wanted = Coder::kDecodes ? 0 : rounded((range_m - origin_m) / step_m);
     const Mixture<kExperts> mixture(state_.mixture, blended_, cell);
     StepCoder<Coder, kExperts> step_coder(coder, state_.steps, mixture, context, origin_m, step_m,
@@ -77,7 +78,7 @@ class RangeModel {
     mixture.learn(step_coder.lower(), step_coder.upper(), ingredients_, state_.mixture);
     const float decoded_m = origin_m + static_cast<float>(steps) * step_m;
     decoded_m_[cell] = decoded_m > kSmallestRangeM ? decoded_m : kSmallestRangeM;
-    coded_steps_[cell] = steps < -kMostContextSteps ? -kMostContextSteps
+    coded_steps_[cell] = steps < -kMostContextSteps  ? -kMostContextSteps
                          : steps > kMostContextSteps ? kMostContextSteps
                                                      : steps;
     return decoded_m_[cell];

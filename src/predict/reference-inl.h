@@ -22,8 +22,8 @@ class ReferencePlanes {
 
   // `first_row`: of the block, in the image; rows beyond it are empty.
   void load_block(const ReferenceImage& image, int first_row) {
-    for (int row = -SkewedPlane<float>::kRowsAbove;
-         row < Wavefront::kRows + SkewedPlane<float>::kRowsBelow; ++row) {
+    for (int row = -SkewedPlane<float>::kRowsAbove; row < Wavefront::kRows + SkewedPlane<float>::kRowsBelow;
+         ++row) {
       const int image_row = first_row + row;
       const bool inside = image_row >= 0 && image_row < image.rows;
       for (int column = 0; column < image.columns; ++column) {

@@ -14,15 +14,22 @@ ReferenceSweep reference_from(const SensorModel& model, const SweepGrid& grid, s
   SweepGrid measured = grid;
   measured.motion.reset();
   const RayTable rays(model, measured);
-  ReferenceSweep reference{static_cast<int>(coding.rows()), static_cast<int>(coding.columns()),
-                           {range_m.begin(), range_m.end()}, {}, {}, {}, grid, std::move(states)};
+  ReferenceSweep reference{static_cast<int>(coding.rows()),
+                           static_cast<int>(coding.columns()),
+                           {range_m.begin(), range_m.end()},
+                           {},
+                           {},
+                           {},
+                           grid,
+                           std::move(states)};
   for (auto* axis : {&reference.x_m, &reference.y_m, &reference.z_m}) axis->resize(range_m.size());
   parallel_for(coding.rows(), threads, [&](std::size_t row) {
     const auto first = static_cast<std::ptrdiff_t>(row * coding.columns());
     const auto end = first + static_cast<std::ptrdiff_t>(coding.columns());
     const auto turned = first + static_cast<std::ptrdiff_t>(coding.shift(row));
     std::vector<float> row_range_m(coding.columns());
-    std::rotate_copy(range_m.begin() + first, range_m.begin() + turned, range_m.begin() + end, row_range_m.begin());
+    std::rotate_copy(range_m.begin() + first, range_m.begin() + turned, range_m.begin() + end,
+                     row_range_m.begin());
     std::vector<Point3f> positions(coding.columns());
     rays.positions_of_row(row, row_range_m, positions);
     CodingGrid::Finder image_index(coding);

@@ -15,7 +15,7 @@ namespace pointreel {
 struct ReferenceSweep {
   int rows = 0;
   int columns = 0;
-  std::vector<float> range_m;       // along the ray; 0: no return
+  std::vector<float> range_m;        // along the ray; 0: no return
   std::vector<float> x_m, y_m, z_m;  // in the sensor's coordinates; 0 where there is no return
   SweepGrid grid;
   // What coding it has taught, where it was itself predicted: the next sweep goes on from there.

@@ -31,8 +31,9 @@ POINTREEL_INLINE Probability16 to_probability(float p) {
 }
 
 template <class Coder, std::size_t kModels>
-POINTREEL_INLINE bool code_mixed(Coder& coder, bool second_stage, float p, CountedBit* const (&models)[kModels],
-                           MixerWeights<kModels + 1>& mixer, bool bit) {
+POINTREEL_INLINE bool code_mixed(Coder& coder, bool second_stage, float p,
+                                 CountedBit* const (&models)[kModels], MixerWeights<kModels + 1>& mixer,
+                                 bool bit) {
   if (!second_stage) return coder.code_with(bit, to_probability(p));
   constexpr std::uint32_t kSettledCount = 60;
   constexpr float kMixingRate = 1.F / 256;
@@ -53,7 +54,7 @@ class StepCoder {
   using Border = typename Mixture<kExperts>::Border;
 
   POINTREEL_INLINE StepCoder(Coder& coder, StepModels& models, const Mixture<kExperts>& mixture,
-                       const StepContext& at, float origin_m, float step_m, bool second_stage)
+                             const StepContext& at, float origin_m, float step_m, bool second_stage)
       : coder_(coder),
         models_(models),
         mixture_(mixture),
@@ -62,7 +63,8 @@ class StepCoder {
         step_m_(step_m),
         second_stage_(second_stage) {}
 
-  // Codes `wanted` (ignored when decoding) and returns it. lower() and upper() are then the borders of its bin.
+  // Codes `wanted` (ignored when decoding) and returns it. lower() and upper() are then the borders of its
+  // bin.
   POINTREEL_INLINE std::int32_t code(std::int32_t wanted) {
     mixture_.evaluate(border_m(-1), *lower_);
     mixture_.evaluate(border_m(0), *upper_);
@@ -132,26 +134,25 @@ class StepCoder {
   }
 
   POINTREEL_INLINE bool code_zero(float p, bool zero) {
-    return code_mixed(
-        coder_, second_stage_, p,
-        {&models_.zero_by_activity[at_.activity * StepModels::kErrors + at_.error],
-         &models_.zero_by_spread[at_.spread * StepModels::kErrors + at_.error],
-         &models_.zero_by_row[at_.row * StepModels::kAvailabilities + at_.availability]},
-        models_.zero_mixers[at_.activity * StepModels::kAvailabilities + at_.availability], zero);
+    return code_mixed(coder_, second_stage_, p,
+                      {&models_.zero_by_activity[at_.activity * StepModels::kErrors + at_.error],
+                       &models_.zero_by_spread[at_.spread * StepModels::kErrors + at_.error],
+                       &models_.zero_by_row[at_.row * StepModels::kAvailabilities + at_.availability]},
+                      models_.zero_mixers[at_.activity * StepModels::kAvailabilities + at_.availability],
+                      zero);
   }
   POINTREEL_INLINE bool code_sign(float p, bool down) {
-    return code_mixed(
-        coder_, second_stage_, p,
-        {&models_.sign_by_signs[at_.signs],
-         &models_.sign_by_row[at_.row * StepModels::kAvailabilities + at_.availability]},
-        models_.sign_mixers[at_.availability], down);
+    return code_mixed(coder_, second_stage_, p,
+                      {&models_.sign_by_signs[at_.signs],
+                       &models_.sign_by_row[at_.row * StepModels::kAvailabilities + at_.availability]},
+                      models_.sign_mixers[at_.availability], down);
   }
   POINTREEL_INLINE bool code_more(std::int32_t magnitude, float p, bool more) {
     const auto step = static_cast<std::size_t>(magnitude - 1);
     return code_mixed(coder_, second_stage_, p,
-                                   {&models_.more_by_error[at_.error * StepModels::kUnarySteps + step],
-                                    &models_.more_by_spread[at_.spread * StepModels::kUnarySteps + step]},
-                                   models_.more_mixers[step * 4 + at_.activity / 4], more);
+                      {&models_.more_by_error[at_.error * StepModels::kUnarySteps + step],
+                       &models_.more_by_spread[at_.spread * StepModels::kUnarySteps + step]},
+                      models_.more_mixers[step * 4 + at_.activity / 4], more);
   }
 
   Border borders_[3];

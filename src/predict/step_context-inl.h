@@ -33,7 +33,8 @@ struct StepContext {
 class StepContexts {
  public:
   StepContexts() = default;
-  POINTREEL_INLINE StepContexts(const SkewedPlane<std::int32_t>& steps, const Neighbourhood& cells, int step) {
+  POINTREEL_INLINE StepContexts(const SkewedPlane<std::int32_t>& steps, const Neighbourhood& cells,
+                                int step) {
     const auto at = [&](int columns_right, int rows_down)
                         HWY_ATTR { return load_ints<8>(steps.at(step, columns_right, rows_down)); };
     const Int8 left = at(-1, 0), left2 = at(-2, 0);
@@ -55,10 +56,12 @@ class StepContexts {
       constexpr auto kLast = static_cast<std::int32_t>(StepModels::kErrors) - 1;
       return static_cast<std::size_t>(std::clamp(c - 2, 0, kLast));
     };
-    return {static_cast<std::size_t>(signs_[cell]), static_cast<std::size_t>(activity_[cell]),
+    return {static_cast<std::size_t>(signs_[cell]),
+            static_cast<std::size_t>(activity_[cell]),
             static_cast<std::size_t>(availability_[cell]),
             std::min(static_cast<std::size_t>(row), StepModels::kRows - 1),
-            sixteen(error_class), sixteen(spread_class)};
+            sixteen(error_class),
+            sixteen(spread_class)};
   }
 
  private:

@@ -12,7 +12,7 @@
 namespace pointreel {
 namespace {
 
-constexpr float kNearestM = 0.05F;   // from the axis: nearer points have no direction
+constexpr float kNearestM = 0.05F;  // from the axis: nearer points have no direction
 constexpr float kFarthestM = 1e5F;  // whatever a damaged pose says, numbers stay finite
 
 struct Row {
@@ -23,7 +23,8 @@ std::vector<Row> rows_of(const SensorModel& model) {
   std::vector<Row> rows;
   for (const RowModel& row : model.rows) {
     rows.push_back({static_cast<float>(row.slope), static_cast<float>(row.offset_m),
-                    static_cast<float>(row.azimuth_rad / (2 * kPi)), static_cast<float>(row.side_offset_m / (2 * kPi)),
+                    static_cast<float>(row.azimuth_rad / (2 * kPi)),
+                    static_cast<float>(row.side_offset_m / (2 * kPi)),
                     static_cast<float>(std::sqrt(1 + row.slope * row.slope))});
   }
   return rows;
@@ -33,9 +34,9 @@ std::vector<Row> rows_of(const SensorModel& model) {
 // column of empty points all around, so that neighbours need no borders.
 struct WarpedPoints {
   std::size_t stride;
-  std::vector<float> row, column;      // between cells
-  std::vector<float> inverse_rho;      // 1 / distance from the axis: linear along a plane; 0: no point
-  std::vector<float> range_m;          // of the reference; 0: no point
+  std::vector<float> row, column;          // between cells
+  std::vector<float> inverse_rho;          // 1 / distance from the axis: linear along a plane; 0: no point
+  std::vector<float> range_m;              // of the reference; 0: no point
   std::vector<float> per_column, per_row;  // slope of inverse_rho
   std::vector<std::int32_t> sides;         // neighbours on the same surface: kRight and so on
 
@@ -73,7 +74,8 @@ inline float columns_between(float from, float to, float width) {
 
 class Warp {
  public:
-  Warp(const SensorModel& model, const SweepGrid& grid, const ReferenceSweep& reference, const Pose& T_ref_cur)
+  Warp(const SensorModel& model, const SweepGrid& grid, const ReferenceSweep& reference,
+       const Pose& T_ref_cur)
       : model_(model),
         reference_(reference),
         rows_(rows_of(model)),
@@ -85,18 +87,21 @@ class Warp {
     const Eigen::Matrix3d r = T_ref_cur.linear();
     const Eigen::Vector3d t = T_ref_cur.translation();
     for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) rotation_[static_cast<std::size_t>(3 * i + j)] = static_cast<float>(r(j, i));
+      for (int j = 0; j < 3; ++j)
+        rotation_[static_cast<std::size_t>(3 * i + j)] = static_cast<float>(r(j, i));
       translation_m_[static_cast<std::size_t>(i)] =
           static_cast<float>(-((r(0, i) * t(0) + r(1, i) * t(1)) + r(2, i) * t(2)));
     }
-    for (std::size_t row = 0; row < rows_.size(); ++row) shift_.push_back(static_cast<float>(coding_.shift(row)));
+    for (std::size_t row = 0; row < rows_.size(); ++row)
+      shift_.push_back(static_cast<float>(coding_.shift(row)));
   }
 
   ReferenceImage run(int threads) {
     const auto reference_rows = static_cast<std::size_t>(reference_.rows);
     parallel_for(reference_rows, threads, [&](std::size_t row) { move_row(static_cast<int>(row)); });
     parallel_for(reference_rows, threads, [&](std::size_t row) { find_slopes(static_cast<int>(row)); });
-    const std::size_t cells = static_cast<std::size_t>(image_.rows) * static_cast<std::size_t>(image_.columns);
+    const std::size_t cells =
+        static_cast<std::size_t>(image_.rows) * static_cast<std::size_t>(image_.columns);
     image_.range_m.assign(cells, 0);
     image_.hits.assign(cells, 0);
     weight_.assign(cells, 0);
@@ -121,13 +126,15 @@ class Warp {
     const ColumnFinder before(reference_.grid);
     const CodingGrid coding_before(model_, reference_.grid);
     std::vector<std::int32_t> column_before;
-    for (std::size_t c = 0; c < coding_.columns(); ++c) column_before.push_back(before.nearest_to(finder_, c));
+    for (std::size_t c = 0; c < coding_.columns(); ++c)
+      column_before.push_back(before.nearest_to(finder_, c));
     for (std::size_t row = 0; row < coding_.rows(); ++row) {
       CodingGrid::Finder cell(coding_), cell_before(coding_before);
       for (std::size_t c = 0; c < coding_.columns(); ++c) {
         if (column_before[c] < 0) continue;
         const auto there = row * coding_before.columns() + static_cast<std::size_t>(column_before[c]);
-        if (reference_.range_m[cell_before(there)] > 0) image_.hits[cell(row * coding_.columns() + c)] = kPreviousHit;
+        if (reference_.range_m[cell_before(there)] > 0)
+          image_.hits[cell(row * coding_.columns() + c)] = kPreviousHit;
       }
     }
   }
@@ -151,7 +158,8 @@ class Warp {
     for (int row = 0; row < reference_.rows; ++row) {
       const std::size_t first = points_.index(row, 0);
       for (std::size_t point = first; point < first + static_cast<std::size_t>(reference_.columns); ++point) {
-        if (points_.range_m[point] > 0 && points_.row[point] >= least && points_.row[point] <= most) render(point);
+        if (points_.range_m[point] > 0 && points_.row[point] >= least && points_.row[point] <= most)
+          render(point);
       }
     }
   }
@@ -218,7 +226,7 @@ class Warp {
     const int other = row + step;
     const bool inside = other >= 0 && other < image_.rows;
     const int from = inside ? row : row - step, to = inside ? other : row;  // two rows that tell the spacing
-    float beside = 0;  // rows from `row` towards `other`
+    float beside = 0;                                                       // rows from `row` towards `other`
     if (from >= 0 && from < image_.rows && from != to) {
       const float spacing = std::fabs(height_above(to, z_m, rho_m) - height_above(from, z_m, rho_m));
       beside = spacing > 1e-4F ? std::fabs(above) / spacing : 0;
@@ -251,16 +259,20 @@ class Warp {
     float* __restrict per_row = &points_.per_row[first];
     std::int32_t* __restrict sides = &points_.sides[first];
     for (std::ptrdiff_t i = 0; i < columns; ++i) {
-      const float right = same_surface(range_m[i], range_m[i + 1]), left = same_surface(range_m[i], range_m[i - 1]);
+      const float right = same_surface(range_m[i], range_m[i + 1]),
+                  left = same_surface(range_m[i], range_m[i - 1]);
       const float below = same_surface(range_m[i], range_m[i + stride]);
       const float above = same_surface(range_m[i], range_m[i - stride]);
-      const Step to_right = {right * (r[i + 1] - r[i]), right * columns_between(c[i], c[i + 1], width), right * (u[i + 1] - u[i])};
-      const Step to_left = {left * (r[i - 1] - r[i]), left * columns_between(c[i], c[i - 1], width), left * (u[i - 1] - u[i])};
+      const Step to_right = {right * (r[i + 1] - r[i]), right * columns_between(c[i], c[i + 1], width),
+                             right * (u[i + 1] - u[i])};
+      const Step to_left = {left * (r[i - 1] - r[i]), left * columns_between(c[i], c[i - 1], width),
+                            left * (u[i - 1] - u[i])};
       const Step down = {below * (r[i + stride] - r[i]), below * columns_between(c[i], c[i + stride], width),
                          below * (u[i + stride] - u[i])};
       const Step up = {above * (r[i - stride] - r[i]), above * columns_between(c[i], c[i - stride], width),
                        above * (u[i - stride] - u[i])};
-      const Step beside = {to_right.rows - to_left.rows, to_right.columns - to_left.columns, to_right.u - to_left.u};
+      const Step beside = {to_right.rows - to_left.rows, to_right.columns - to_left.columns,
+                           to_right.u - to_left.u};
       const Step over = {down.rows - up.rows, down.columns - up.columns, down.u - up.u};
       const float determinant = beside.columns * over.rows - beside.rows * over.columns;
       const float squared = determinant * determinant, width2 = beside.columns * beside.columns,
@@ -282,8 +294,8 @@ class Warp {
 
   // A point's place between four cells.
   struct Place {
-    int row, column;               // of the upper left one
-    float row_part, column_part;   // from there, 0 to 1
+    int row, column;              // of the upper left one
+    float row_part, column_part;  // from there, 0 to 1
   };
   Place place_of(std::size_t point) const {
     const float at_row = points_.row[point], at_column = points_.column[point];
@@ -344,7 +356,8 @@ class Warp {
       if (!rows.hold(row) || !(near_row || (sides & (down == 1 ? kBelow : kAbove)) != 0)) continue;
       for (int right = 0; right < 2; ++right) {
         const bool near_column = (at.column_part > 0.5F) == (right == 1);
-        if ((near_row && near_column) || !(near_column || (sides & (right == 1 ? kRight : kLeft)) != 0)) continue;
+        if ((near_row && near_column) || !(near_column || (sides & (right == 1 ? kRight : kLeft)) != 0))
+          continue;
         const std::size_t cell = cell_at(row, at.column + right);
         if ((image_.hits[cell] & kWarpedHit) != 0) continue;
         const float range_m = range_beside(point, row, static_cast<float>(down) - at.row_part,

@@ -9,10 +9,10 @@
 
 namespace pointreel {
 
-// Every point of the reference moves into the current sweep's coordinates (`T_ref_cur` leads back) and falls between four cells of the grid; each of them takes
-// the range at which its own ray meets the surface that the point and its neighbours span. Of several points the
-// nearest wins; cells that only the far side of a point reaches count as filled. Deterministic on all machines
-// and for any number of threads.
+// Every point of the reference moves into the current sweep's coordinates (`T_ref_cur` leads back) and falls
+// between four cells of the grid; each of them takes the range at which its own ray meets the surface that
+// the point and its neighbours span. Of several points the nearest wins; cells that only the far side of a
+// point reaches count as filled. Deterministic on all machines and for any number of threads.
 ReferenceImage warp(const SensorModel& model, const SweepGrid& grid, const ReferenceSweep& reference,
                     const Pose& T_ref_cur, int threads);
 

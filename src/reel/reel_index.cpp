@@ -7,8 +7,8 @@ namespace pointreel {
 std::vector<ReelIndexEntry> ReelIndex::needed_for(std::uint32_t frame) const {
   std::vector<ReelIndexEntry> chain;
   for (;;) {
-    const auto entry =
-        std::find_if(entries.begin(), entries.end(), [&](const ReelIndexEntry& e) { return e.frame == frame; });
+    const auto entry = std::find_if(entries.begin(), entries.end(),
+                                    [&](const ReelIndexEntry& e) { return e.frame == frame; });
     // No group is longer; references that lead in a circle are no chain.
     constexpr std::size_t kLongestGroup = 255;
     if (entry == entries.end() || chain.size() == kLongestGroup) return {};

@@ -78,8 +78,9 @@ TEST_F(Temporal, PosesAreTakenAndWrongOnesDoNoHarm) {
 // From one place to another and back: nothing to register.
 TEST_F(Temporal, JumpsKeepTheBound) {
   const auto elsewhere = clouds_of(simulated_drive(40));
-  check_mixture_round_trip({sweeps_[0], elsewhere[39], sweeps_[1], random_sphere(3000, 20, 1), sweeps_[2], sweeps_[3]},
-                           options_with(Effort::balanced));
+  check_mixture_round_trip(
+      {sweeps_[0], elsewhere[39], sweeps_[1], random_sphere(3000, 20, 1), sweeps_[2], sweeps_[3]},
+      options_with(Effort::balanced));
 }
 
 TEST_F(Temporal, BytesAreTheSameForAnyNumberOfThreads) {
@@ -131,7 +132,8 @@ TEST_F(Temporal, RandomLossesAreReportedAndMostSweepsArrive) {
     sent += packets.size();
     for (std::size_t i = 0; i < received.size(); ++i) {
       if (!sweeps[i]) {
-        expect_error(sweeps[i], ErrorCode::corrupt, {"frame " + std::to_string(received[i].frame), "not decoded"});
+        expect_error(sweeps[i], ErrorCode::corrupt,
+                     {"frame " + std::to_string(received[i].frame), "not decoded"});
         continue;
       }
       ++arrived;

@@ -34,7 +34,9 @@ GridImage street(int rows, int columns, unsigned seed, int shift = 0) {
 ReferenceImage reference_of(const GridImage& image) {
   ReferenceImage reference{image.rows, image.columns, image.range_m, {}};
   for (std::size_t i = 0; i < image.range_m.size(); ++i) {
-    reference.hits.push_back(image.range_m[i] > 0 ? kWarpedHit | kPreviousHit : i % 3 == 0 ? kWarpedFilled : 0);
+    reference.hits.push_back(image.range_m[i] > 0 ? kWarpedHit | kPreviousHit
+                             : i % 3 == 0         ? kWarpedFilled
+                                                  : 0);
   }
   return reference;
 }

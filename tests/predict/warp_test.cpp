@@ -18,8 +18,8 @@ constexpr double kPi = 3.14159265358979323846;
 SensorModel sensor(int rows) {
   SensorModel model;
   for (int row = 0; row < rows; ++row) {
-    model.rows.push_back(rounded({0.05 - 0.4 * row / rows, row % 2 == 0 ? 0.1 : 0.15, row % 3 * 0.04,
-                                  row % 2 == 0 ? 0.026 : -0.026}));
+    model.rows.push_back(rounded(
+        {0.05 - 0.4 * row / rows, row % 2 == 0 ? 0.1 : 0.15, row % 3 * 0.04, row % 2 == 0 ? 0.026 : -0.026}));
     model.row_sequence.push_back(static_cast<std::uint16_t>(row));
   }
   model.ticks_per_turn = 4000;
@@ -47,7 +47,8 @@ GridImage room_from(const SensorModel& model, const SweepGrid& grid, double x_m,
         return std::fabs(x) < 10 && std::fabs(y) < 7 && p.z > -1.8F && p.z < 3;
       };
       float near_m = 0, far_m = 60;
-      for (int i = 0; i < 40; ++i) (inside(0.5F * (near_m + far_m)) ? near_m : far_m) = 0.5F * (near_m + far_m);
+      for (int i = 0; i < 40; ++i)
+        (inside(0.5F * (near_m + far_m)) ? near_m : far_m) = 0.5F * (near_m + far_m);
       range_of_cell_m[row * coding.columns() + column] = near_m;
     }
   }
@@ -124,7 +125,8 @@ TEST(Warp, PointsBesideAPartialViewAreDropped) {
 TEST(Warp, IsTheSameForAnyNumberOfThreads) {
   const SensorModel model = sensor(16);
   const SweepGrid grid = full_turn();
-  const ReferenceSweep reference = reference_from(model, grid, room_from(model, grid, 0, 0, 0).range_m, {}, 3);
+  const ReferenceSweep reference =
+      reference_from(model, grid, room_from(model, grid, 0, 0, 0).range_m, {}, 3);
   const ReferenceImage one = warp(model, grid, reference, moved(0.7, 0, 0.05), 1);
   const ReferenceImage four = warp(model, grid, reference, moved(0.7, 0, 0.05), 4);
   EXPECT_EQ(one.range_m, four.range_m);

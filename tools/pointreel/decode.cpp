@@ -154,7 +154,8 @@ Result<std::vector<Packet>> packets_for(ReelReader& reader, const FrameRange& wa
   for (const ReelIndexEntry& entry : index->entries) {
     if (!wanted.contains(entry.frame)) continue;
     // Until what is needed already; where a reference is not in the reel, the decoder says so.
-    for (auto at = reference_of.find(entry.frame); at != reference_of.end() && needed.insert(at->first).second;)
+    for (auto at = reference_of.find(entry.frame);
+         at != reference_of.end() && needed.insert(at->first).second;)
       at = reference_of.find(at->second);
   }
   std::vector<Packet> packets;

@@ -142,7 +142,8 @@ void add_encode_arguments(CLI::App& verb, EncodeArguments& arguments) {
                       "the list, the others are kept as well")
           ->capture_default_str()
           ->group(mixture),
-      verb.add_option("--effort", arguments.effort, "fast, balanced or max: more work, fewer bits; decoding does the same")
+      verb.add_option("--effort", arguments.effort,
+                      "fast, balanced or max: more work, fewer bits; decoding does the same")
           ->check(CLI::IsMember({"fast", "balanced", "max"}))
           ->capture_default_str()
           ->group(mixture),
@@ -169,11 +170,13 @@ void add_encode_arguments(CLI::App& verb, EncodeArguments& arguments) {
           ->capture_default_str()
           ->group(planes)};
 
-  const std::string motion = "Motion (mixture finds it in the sweeps where none is given, and refines what is)";
+  const std::string motion =
+      "Motion (mixture finds it in the sweeps where none is given, and refines what is)";
   auto* poses =
       verb.add_option("--poses", arguments.poses, "Sensor poses, one per sweep (KITTI), or with times (TUM)")
           ->group(motion);
-  verb.add_option("--imu", arguments.imu, "IMU recording: .csv (t, ax, ay, az, wx, wy, wz) or a KITTI oxts folder")
+  verb.add_option("--imu", arguments.imu,
+                  "IMU recording: .csv (t, ax, ay, az, wx, wy, wz) or a KITTI oxts folder")
       ->excludes(poses)
       ->group(motion);
 }
