@@ -162,7 +162,8 @@ class Encoder {
 
   // Takes the next sweep. Returns the packets that are now complete: for `mixture` this sweep's, for `planes`
   // none until a group is, then all of its packets, key frame first. `planes` uses the sweep's pose in any
-  // fixed frame (omit it for all sweeps when motion is unknown: they are then compared where they stand).
+  // fixed frame (omit it for all sweeps when motion is unknown: they are then compared where they stand);
+  // `mixture` starts its own registration from it, or from the motion before.
   // Errors: resource_limit for a sweep of more than 2^23 points, invalid_argument for a field whose number of
   // values is not that of the points; the encoder then goes on without the sweep.
   Result<std::vector<Packet>> encode(PointCloud sweep, const std::optional<Pose>& T_world_sensor = {});
@@ -193,8 +194,9 @@ class Decoder {
   Decoder& operator=(Decoder&&) noexcept;
   ~Decoder();
 
-  // Packets in stream order; several at once (a group, say) are decoded in parallel. One result per packet: a
-  // damaged packet, or one whose reference frame was not decoded, is an Error and does not harm the others.
+  // Packets in stream order; several at once are decoded in parallel by method `planes`. One result per
+  // packet: a damaged packet, or one whose reference frame was not decoded, is an Error, and harms only those
+  // that refer to it.
   std::vector<Result<DecodedSweep>> decode(std::span<const Packet> packets);
 
   class Implementation;
