@@ -19,14 +19,16 @@ namespace pointreel {
 namespace HWY_NAMESPACE {
 
 // The order of the lanes is part of the format. Lane 0 is left for the blend (blend-inl.h).
+enum Expert : std::uint8_t {  // of all frames
+  kPlane = 1,                 // local fits
+  kLine = 2,
+  kParallel = 3,
+  kLeft = 4,  // ranges seen nearby: the surfaces that may go on here
+  kAbove = 5,
+  kAboveRight = 6,
+  kEdge = 7,  // behind the last depth edge of the row
+};
 enum KeyExpert : std::uint8_t {
-  kKeyPlane = 1,  // local fits
-  kKeyLine = 2,
-  kKeyParallel = 3,
-  kKeyLeft = 4,  // ranges seen nearby: the surfaces that may go on here
-  kKeyAbove = 5,
-  kKeyAboveRight = 6,
-  kKeyEdge = 7,   // behind the last depth edge of the row
   kKeyLine2 = 8,  // the last two returns of the row go on, in inverse range
   kKeyStep = 9,   // the step from above to above right, from the cell left
   kKeyAboveLeft = 10,
@@ -37,13 +39,6 @@ enum KeyExpert : std::uint8_t {
   kKeyEarlierEdge = 15,
 };
 enum PredictedExpert : std::uint8_t {
-  kPredictedPlane = 1,
-  kPredictedLine = 2,
-  kPredictedParallel = 3,
-  kPredictedLeft = 4,
-  kPredictedAbove = 5,
-  kPredictedAboveRight = 6,
-  kPredictedEdge = 7,
   kReferenceHere = 8,  // the warped reference's range
   kPredictedLeft2 = 9,
   kReferenceLeftStep = 10,  // its step from the cell left
@@ -116,20 +111,26 @@ struct Surroundings {
   POINTREEL_INLINE Float8 mean_left() const { return or_start(where(seen(left2), 0.5F * (left + left2))); }
 };
 
+// What all frames propose: lanes 0 to kEdge.
+POINTREEL_INLINE void propose_from_around(const Neighbourhood& cells, const RowMemory& memory,
+                                          const Surroundings& around, Float8* range_m) {
+  const LocalFits fits = fit_locally(cells, around.start, around.above);
+  range_m[0] = around.start;
+  range_m[kPlane] = around.if_likely(inverted(fits.plane));
+  range_m[kLine] = around.if_likely(inverted(fits.line));
+  range_m[kParallel] = around.if_likely(inverted(fits.parallel));
+  range_m[kLeft] = around.start;
+  range_m[kAbove] = around.or_start(around.above);
+  range_m[kAboveRight] = around.or_start(around.above_right);
+  range_m[kEdge] = around.or_start(memory.edge_m());
+}
+
 template <std::size_t kExperts>
 HWY_NOINLINE Proposals<kExperts> propose_for_key_frame(const Neighbourhood& cells, const RowMemory& memory) {
   const Surroundings around(cells, memory, all<8>(0));
-  const LocalFits fits = fit_locally(cells, around.start, around.above);
   Proposals<kExperts> proposals;
   Float8* range_m = proposals.range_m;
-  range_m[0] = around.start;
-  range_m[kKeyPlane] = around.if_likely(inverted(fits.plane));
-  range_m[kKeyLine] = around.if_likely(inverted(fits.line));
-  range_m[kKeyParallel] = around.if_likely(inverted(fits.parallel));
-  range_m[kKeyLeft] = around.start;
-  range_m[kKeyAbove] = around.or_start(around.above);
-  range_m[kKeyAboveRight] = around.or_start(around.above_right);
-  range_m[kKeyEdge] = around.or_start(memory.edge_m());
+  propose_from_around(cells, memory, around, range_m);
   if constexpr (kExperts == 16) {
     range_m[kKeyLine2] = around.line2();
     range_m[kKeyStep] = around.step_from_above();
@@ -168,19 +169,11 @@ HWY_NOINLINE Proposals<kExperts> propose_for_predicted_frame(const Neighbourhood
   const Float8 here = reference.range_m(0);
   const Float8 west = reference.range_m(-1), east = reference.range_m(1);
   const Surroundings around(cells, memory, here);
-  const LocalFits fits = fit_locally(cells, around.start, around.above);
   const Float8 shift = mean_difference(cells, reference);
   constexpr float kSmoothM = 0.3F;
   Proposals<kExperts> proposals;
   Float8* range_m = proposals.range_m;
-  range_m[0] = around.start;
-  range_m[kPredictedPlane] = around.if_likely(inverted(fits.plane));
-  range_m[kPredictedLine] = around.if_likely(inverted(fits.line));
-  range_m[kPredictedParallel] = around.if_likely(inverted(fits.parallel));
-  range_m[kPredictedLeft] = around.start;
-  range_m[kPredictedAbove] = around.or_start(around.above);
-  range_m[kPredictedAboveRight] = around.or_start(around.above_right);
-  range_m[kPredictedEdge] = around.or_start(memory.edge_m());
+  propose_from_around(cells, memory, around, range_m);
   range_m[kReferenceHere] = around.or_start(here);
   range_m[kPredictedLeft2] = around.or_start(around.left2);
   range_m[kPredictedLine2] = around.line2();
