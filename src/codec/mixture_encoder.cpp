@@ -74,14 +74,13 @@ class MixtureEncoder final : public Encoder::Implementation {
     std::uint32_t reference_frame = packet.frame;
     if (auto gridded = on_grid(cloud)) {
       std::optional<Pose> T_ref_cur;
+      if (temporal_) T_ref_cur = alignment_.follow(*model_, *gridded, T_world_sensor, starts_group());
       if (starts_group()) {
         put_model(writer, packet.statistics);
       } else {
-        if (temporal_) T_ref_cur = alignment_.align(*model_, *gridded, T_world_sensor);
         writer.put(T_ref_cur ? SweepCoding::predicted : SweepCoding::gridded);
       }
       reference_frame = T_ref_cur ? packet.frame - 1 : *model_frame_;
-      if (temporal_) alignment_.set_reference(*model_, *gridded, T_world_sensor);
       const auto prediction = T_ref_cur ? std::optional(Prediction{reference_, *T_ref_cur}) : std::nullopt;
       encoded =
           encode_gridded({*model_, header_.max_error_m, header_.effort, threads_}, cloud, *std::move(gridded),

@@ -12,28 +12,29 @@ namespace pointreel {
 
 class SweepAlignment {
  public:
-  // The sweep that the next one is registered against: as measured, for coarse steps of range bend the ground
-  // the same way in every sweep, which looks like standing still (docs/REGISTRATION.md).
-  void set_reference(const SensorModel& model, const GriddedSweep& sweep,
-                     const std::optional<Pose>& T_world_sensor) {
-    reference_.emplace(model, sweep.grid);
-    reference_m_ = ranges_by_cell(model, sweep);
+  // Takes the next sweep. Its coordinates to those of the sweep before, before motion compensation; none when
+  // it `is_key`, or when the two cannot be registered. Given poses are where the search begins, else the
+  // motion before.
+  //
+  // Sweeps are registered as measured: coarse steps of range bend the ground the same way in every sweep,
+  // which looks like standing still (docs/REGISTRATION.md).
+  std::optional<Pose> follow(const SensorModel& model, const GriddedSweep& sweep,
+                             const std::optional<Pose>& T_world_sensor, bool is_key) {
+    MeasuredGrid current(model, sweep.grid);
+    auto current_m = ranges_by_cell(model, sweep);
+    std::optional<Pose> T_ref_cur;
+    if (!is_key && reference_) {
+      std::optional<Pose> guess = motion_;
+      if (T_world_reference_ && T_world_sensor) guess = T_world_reference_->inverse() * *T_world_sensor;
+      const Registration registration =
+          register_sweeps(reference_->with(reference_m_), current.with(current_m), guess);
+      if (registration.converged) T_ref_cur = registration.T_ref_cur;
+      motion_ = T_ref_cur;
+    }
+    reference_ = std::move(current);
+    reference_m_ = std::move(current_m);
     T_world_reference_ = T_world_sensor;
-  }
-
-  // Coordinates of the current sweep to those of the reference, before motion compensation; none when the two
-  // cannot be registered. Given poses are where the search begins, else the motion before.
-  std::optional<Pose> align(const SensorModel& model, const GriddedSweep& sweep,
-                            const std::optional<Pose>& T_world_sensor) {
-    if (!reference_) return std::nullopt;
-    std::optional<Pose> guess = std::exchange(motion_, std::nullopt);
-    if (T_world_reference_ && T_world_sensor) guess = T_world_reference_->inverse() * *T_world_sensor;
-    const MeasuredGrid current(model, sweep.grid);
-    const auto current_m = ranges_by_cell(model, sweep);
-    const Registration registration =
-        register_sweeps(reference_->with(reference_m_), current.with(current_m), guess);
-    if (registration.converged) motion_ = registration.T_ref_cur;
-    return motion_;
+    return T_ref_cur;
   }
 
  private:

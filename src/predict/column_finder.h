@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/trigonometry.h"
 #include "sensor/sweep_grid.h"
 
 namespace pointreel {
