@@ -23,12 +23,18 @@
 namespace pointreel {
 
 enum class Method : std::uint8_t {
-  planes = 1,   // Feng, Liu, Zhu: Real-Time Spatio-Temporal LiDAR Point Cloud Compression, IROS 2020
+  planes = 1,   // after Feng, Liu, Zhu: Real-Time Spatio-Temporal LiDAR Point Cloud Compression, IROS 2020
   mixture = 2,  // every point within a bound: sensor-grid ranges coded by a mixture of predictors
 };
 
-// How much work `mixture` puts into a sweep: more work, fewer bits (docs/EFFORT.md). The decoder does the
-// same.
+// The range image that planes are found in.
+enum class PlaneGrid : std::uint8_t {
+  uniform = 0,  // the paper's: equal angles; of several points in a cell one is kept, at its centre
+  sensor = 1,   // the sensor's own rays: every point is kept, within the bound of `mixture`
+};
+
+// How much work goes into a sweep on the sensor's grid: more work, fewer bits (docs/EFFORT.md). The decoder
+// does the same.
 enum class Effort : std::uint8_t { fast = 0, balanced = 1, max = 2 };
 
 // How the ranges of cells that lie on no plane are kept (the paper's residual map).
@@ -37,9 +43,14 @@ enum class ResidualMode : std::uint8_t {
   raw_float  // float32 as in the paper, entropy coded byte by byte
 };
 
-// Method `planes`. A sweep becomes a range image on a uniform angular grid; of several points in a cell the
-// nearest is kept, at the cell's centre angles. Geometry only: fields are not carried.
+// Method `planes`. On the sensor's grid all else is MixtureOptions' matter: cells on planes need no coding,
+// all others are coded by method `mixture`, every point within its bound. With effort `fast` cells are put on
+// planes wherever they fit, otherwise where that saves bits.
+//
+// The other options are those of the uniform grid. There a sweep becomes a range image of equal angles; of
+// several points in a cell the nearest is kept, at the cell's centre angles. Fields are not carried.
 struct PlanesOptions {
+  PlaneGrid grid = PlaneGrid::sensor;
   double threshold_m = 0.1;  // range error of a cell on a plane at most; 0.001 to 10
   double azimuth_step_rad = 0.18 * 3.14159265358979323846 / 180;    // 0.0003 to 0.1
   double elevation_step_rad = 0.45 * 3.14159265358979323846 / 180;  // 0.0003 to 0.1
@@ -63,9 +74,9 @@ struct FieldSelection {
   const FieldStep* find(std::string_view name) const;  // nullptr when it is not named
 };
 
-// Method `mixture`. Every finite point comes back, within max_error_m of where it was; non-finite ones are
-// dropped and counted. Clouds of rotating sensors are coded on the sensor's own grid, which is found from the
-// sweeps; any other cloud by an octree.
+// Method `mixture`, and `planes` on the sensor's grid. Every finite point comes back, within max_error_m of
+// where it was; non-finite ones are dropped and counted. Clouds of rotating sensors are coded on the sensor's
+// own grid, which is found from the sweeps; any other cloud by an octree.
 struct MixtureOptions {
   double max_error_m =
       0.02;        // distance in space of each point to its own decoded float32 position; 0.0005 to 1
@@ -85,14 +96,16 @@ struct EncoderOptions {
 // What a decoder must know before the first packet.
 struct StreamHeader {
   Method method = Method::mixture;
-  double max_error_m = 0.02;         // `mixture` only
-  int group = 10;                    // `mixture` only
-  Effort effort = Effort::balanced;  // `mixture` only
-  PlanesOptions planes;              // `planes` only, with residual_step_m resolved
+  double max_error_m = 0.02;         // on the sensor's grid only
+  int group = 10;                    // on the sensor's grid only
+  Effort effort = Effort::balanced;  // on the sensor's grid only
+  PlanesOptions planes;              // `planes` only; uniform grid: with residual_step_m resolved
 
-  // `mixture`: largest distance of a point to its own decoded position. `planes`: largest range error of a
-  // kept point: the threshold, or half the residual step if that is more (decoded positions are float32;
-  // where their rounding matters, 1 mm at 10 km, it comes on top).
+  // Method `mixture`, and `planes` unless its grid is uniform.
+  bool on_sensor_grid() const;
+  // On the sensor's grid: largest distance of a point to its own decoded position. On the uniform one:
+  // largest range error of a kept point: the threshold, or half the residual step if that is more (decoded
+  // positions are float32; where their rounding matters, 1 mm at 10 km, it comes on top).
   double bound_m() const;
 };
 
@@ -109,7 +122,7 @@ enum class FrameKind : std::uint8_t {
 // Where the bits of a packet and the cells of its range image went (encoder only, not in the stream).
 struct FrameStatistics {
   double occupancy_bits = 0;  // which cells hold a point: both methods
-  // `mixture`
+  // on the sensor's grid
   double model_bits = 0;       // the sensor model
   double grid_bits = 0;        // columns, kind of order, motion
   double range_bits = 0;       // ranges of the points on the grid
@@ -160,12 +173,12 @@ class Encoder {
 
   const StreamHeader& header() const;
 
-  // Takes the next sweep. Returns the packets that are now complete: for `mixture` this sweep's, for `planes`
-  // none until a group is, then all of its packets, key frame first. `planes` uses the sweep's pose in any
-  // fixed frame (omit it for all sweeps when motion is unknown: they are then compared where they stand);
-  // `mixture` starts its own registration from it, or from the motion before.
-  // Errors: resource_limit for a sweep of more than 2^23 points, invalid_argument for a field whose number of
-  // values is not that of the points; the encoder then goes on without the sweep.
+  // Takes the next sweep. Returns the packets that are now complete: on the sensor's grid this sweep's, on
+  // the uniform one none until a group is, then all of its packets, key frame first. The latter uses the
+  // sweep's pose in any fixed frame (omit it for all sweeps when motion is unknown: they are then compared
+  // where they stand); on the sensor's grid registration starts from it, or from the motion before. Errors:
+  // resource_limit for a sweep of more than 2^23 points, invalid_argument for a field whose number of values
+  // is not that of the points; the encoder then goes on without the sweep.
   Result<std::vector<Packet>> encode(PointCloud sweep, const std::optional<Pose>& T_world_sensor = {});
   // Ends the stream: packets of the last, maybe shorter group.
   Result<std::vector<Packet>> finish();
@@ -180,7 +193,7 @@ class Encoder {
 struct DecodedSweep {
   std::uint32_t frame = 0;
   PointCloud cloud;                      // the sweep's own sensor coordinates
-  Pose T_key_sensor = Pose::Identity();  // `planes`: the motion that was undone (predicted frames)
+  Pose T_key_sensor = Pose::Identity();  // uniform grid: the motion that was undone (predicted frames)
   bool order_kept = false;               // the points come in the order of the input
   std::uint64_t field_bytes = 0;         // of the packet's payload: what the fields took
 };
@@ -194,7 +207,7 @@ class Decoder {
   Decoder& operator=(Decoder&&) noexcept;
   ~Decoder();
 
-  // Packets in stream order; several at once are decoded in parallel by method `planes`. One result per
+  // Packets in stream order; several at once are decoded in parallel on the uniform grid. One result per
   // packet: a damaged packet, or one whose reference frame was not decoded, is an Error, and harms only those
   // that refer to it.
   std::vector<Result<DecodedSweep>> decode(std::span<const Packet> packets);
@@ -207,7 +220,7 @@ class Decoder {
 };
 
 // Index into decoded.cloud of each original point's own decoded point; -1 for points that the method gave up
-// (`planes`: another point of the cell was nearer; not finite). `original` must be the sweep that was
+// (uniform grid: another point of the cell was nearer; not finite). `original` must be the sweep that was
 // encoded. Where the order was not kept, points are matched one to one within the bound; those that cannot be
 // get -1.
 Result<std::vector<std::int64_t>> pair_points(const StreamHeader& header, const PointCloud& original,

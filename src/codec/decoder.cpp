@@ -10,8 +10,8 @@ Decoder& Decoder::operator=(Decoder&&) noexcept = default;
 Decoder::~Decoder() = default;
 
 Result<Decoder> Decoder::create(const StreamHeader& header, const Runtime& runtime) {
-  auto implementation = header.method == Method::planes ? make_planes_decoder(header, runtime)
-                                                        : make_mixture_decoder(header, runtime);
+  auto implementation =
+      header.on_sensor_grid() ? make_mixture_decoder(header, runtime) : make_planes_decoder(header, runtime);
   if (!implementation) return implementation.error();
   return Decoder(*std::move(implementation));
 }
@@ -22,8 +22,8 @@ std::vector<Result<DecodedSweep>> Decoder::decode(std::span<const Packet> packet
 
 Result<std::vector<std::int64_t>> pair_points(const StreamHeader& header, const PointCloud& original,
                                               const DecodedSweep& decoded) {
-  return header.method == Method::planes ? pair_planes_points(header, original, decoded)
-                                         : pair_mixture_points(header, original, decoded);
+  return header.on_sensor_grid() ? pair_mixture_points(header, original, decoded)
+                                 : pair_planes_points(header, original, decoded);
 }
 
 }  // namespace pointreel

@@ -12,8 +12,9 @@ Encoder& Encoder::operator=(Encoder&&) noexcept = default;
 Encoder::~Encoder() = default;
 
 Result<Encoder> Encoder::create(const EncoderOptions& options, const Runtime& runtime) {
-  auto implementation = options.method == Method::planes ? make_planes_encoder(options, runtime)
-                                                         : make_mixture_encoder(options, runtime);
+  const bool uniform = options.method == Method::planes && options.planes.grid == PlaneGrid::uniform;
+  auto implementation =
+      uniform ? make_planes_encoder(options, runtime) : make_mixture_encoder(options, runtime);
   if (!implementation) return implementation.error();
   return Encoder(*std::move(implementation));
 }

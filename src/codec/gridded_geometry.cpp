@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "codec/corrections.h"
 #include "codec/error_budget.h"
+#include "codec/relative_pose.h"
 #include "codec/sections.h"
 #include "predict/coding_grid.h"
 #include "scatter/stray_list.h"
@@ -41,6 +42,19 @@ void drop_unreachable(const PointCloud& cloud, double max_error_m, GriddedSweep&
       if (out_of_reach(i)) sweep.cell_of_point[i] = -1;
     }
   }
+}
+
+// By how much the range of each cell of the sensor grid may be off, given how far its point is off its ray.
+std::vector<float> range_tolerances_m(const GriddedSweep& sweep, std::size_t cells, double max_error_m) {
+  std::vector<float> tolerance_m(cells);
+  const auto squared_m2 = static_cast<float>(max_error_m * max_error_m);
+  for (std::size_t i = 0; i < sweep.cell_of_point.size(); ++i) {
+    if (sweep.cell_of_point[i] < 0) continue;
+    const float deviation_m = sweep.deviation_m[i];
+    tolerance_m[static_cast<std::size_t>(sweep.cell_of_point[i])] =
+        std::sqrt(std::max(0.0F, squared_m2 - deviation_m * deviation_m));
+  }
+  return tolerance_m;
 }
 
 std::vector<std::uint8_t> occupied_cells(std::span<const float> range_of_cell_m) {
@@ -159,10 +173,17 @@ Result<RangeQuantiser> get_quantiser(ByteReader& reader, const SensorModel& mode
 
 }  // namespace
 
+GeometrySetting geometry_setting(const StreamHeader& header, const SensorModel& model, int threads) {
+  const PlaneStage planes = header.method != Method::planes ? PlaneStage::none
+                            : header.effort == Effort::fast ? PlaneStage::wherever_it_fits
+                                                            : PlaneStage::where_it_pays;
+  return {model, header.max_error_m, header.effort, threads, planes};
+}
+
 EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud& cloud, GriddedSweep sweep,
                                std::span<const std::uint32_t> bursts, const Prediction* prediction,
                                ByteWriter& writer, FrameStatistics& statistics) {
-  const auto& [model, max_error_m, effort, threads] = setting;
+  const auto& [model, max_error_m, effort, threads, plane_stage] = setting;
   drop_unreachable(cloud, max_error_m, sweep);
   const RangeQuantiser quantiser = choose_quantiser(model, sweep, max_error_m);
 
@@ -178,8 +199,21 @@ EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud&
   }
   GridImage image = coding.image_of(range_of_cell_m, threads);
   ByteWriter image_bytes;
-  auto states = encode_image({model, sweep.grid, quantiser, effort, threads}, prediction, image, image_bytes,
-                             statistics);
+  std::optional<Prediction> rounded;
+  if (prediction != nullptr) {
+    put_relative_pose(image_bytes, prediction->T_ref_cur);
+    statistics.grid_bits += bits_of(image_bytes.size());
+    rounded.emplace(prediction->reference, *quantised(prediction->T_ref_cur));
+  }
+  PlaneSection planes;
+  if (plane_stage != PlaneStage::none) {
+    const GridImage tolerance =
+        coding.image_of(range_tolerances_m(sweep, range_of_cell_m.size(), max_error_m), threads);
+    planes = encode_planes({model, sweep.grid, coding, max_error_m, threads, plane_stage}, image, tolerance,
+                           image_bytes, statistics);
+  }
+  auto states = encode_image({model, sweep.grid, quantiser, effort, threads, planes.range_m},
+                             rounded ? &*rounded : nullptr, image, image_bytes, statistics);
 
   // The points as the decoder will have them, in its sequence.
   range_of_cell_m = coding.ranges_of_cells(image, threads);
@@ -235,13 +269,13 @@ EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud&
     statistics.order_bits += bits_of(burst_bytes.size());
     encoded.geometry.bursts.assign(bursts.begin(), bursts.end());
   }
-  encoded.image = {std::move(sweep.grid), std::move(image), std::move(states)};
+  encoded.image = {std::move(sweep.grid), std::move(image), std::move(states), std::move(planes.tiles)};
   return encoded;
 }
 
 Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size_t points_out,
                                        const ReferenceSweep* reference, ByteReader& reader) {
-  const auto& [model, max_error_m, effort, threads] = setting;
+  const auto& [model, max_error_m, effort, threads, plane_stage] = setting;
   const auto grid = decode_sweep_grid(model, get_section(reader));
   if (!grid) return grid.error();
   const auto quantiser = get_quantiser(reader, model);
@@ -250,7 +284,20 @@ Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size
   if (grid->column_count() == 0) return Error{ErrorCode::corrupt, "its grid has no columns"};
   const CodingGrid coding(model, *grid);
   GridImage image = coding.empty_image();
-  auto states = decode_image({model, *grid, *quantiser, effort, threads}, reference, reader, image);
+  std::optional<Prediction> prediction;
+  if (reference != nullptr) {
+    const auto T_ref_cur = get_relative_pose(reader);
+    if (!T_ref_cur) return T_ref_cur.error();
+    prediction.emplace(*reference, *T_ref_cur);
+  }
+  PlaneSection planes;
+  if (plane_stage != PlaneStage::none) {
+    auto section = decode_planes({model, *grid, coding, max_error_m, threads, plane_stage}, reader);
+    if (!section) return section.error();
+    planes = *std::move(section);
+  }
+  auto states = decode_image({model, *grid, *quantiser, effort, threads, planes.range_m},
+                             prediction ? &*prediction : nullptr, reader, image);
   if (!states) return states.error();
 
   const auto range_of_cell_m = coding.ranges_of_cells(image, threads);
@@ -300,7 +347,7 @@ Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size
     const bool stray = result.geometry.cell_of_point[i] < 0;
     result.positions[i] = stray ? strays[next_stray++].position : positions[cells[next_cell++]];
   }
-  result.image = {*grid, std::move(image), *std::move(states)};
+  result.image = {*grid, std::move(image), *std::move(states), std::move(planes.tiles)};
   return result;
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/bytes.h"
 #include "codec/image_sections.h"
+#include "codec/plane_section.h"
 #include "pointreel/codec.h"
 #include "pointreel/point_cloud.h"
 #include "sensor/sensor_model.h"
@@ -30,6 +31,7 @@ struct CodedImage {
   SweepGrid grid;
   GridImage image;                // empty for a sweep without a grid
   std::vector<BandState> states;  // ReferenceSweep::states
+  PlaneTiles planes;              // of method `planes`
 };
 
 // What both sides know of the sensor and the stream.
@@ -38,7 +40,10 @@ struct GeometrySetting {
   double max_error_m = 0.02;
   Effort effort = Effort::balanced;
   int threads = 1;
+  PlaneStage planes = PlaneStage::none;
 };
+
+GeometrySetting geometry_setting(const StreamHeader& header, const SensorModel& model, int threads);
 
 struct EncodedGeometry {
   CodedGeometry geometry;
@@ -47,7 +52,8 @@ struct EncodedGeometry {
 };
 
 // All points of `cloud` must be finite. `sweep`: its projection. `bursts`: those of the sort that was undone,
-// if one was (sensor/burst_sort.h). `prediction`: nullptr for a frame by itself. Appends to `writer`.
+// if one was (sensor/burst_sort.h). `prediction`: nullptr for a frame by itself; its pose is rounded for the
+// stream. Appends to `writer`.
 EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud& cloud, GriddedSweep sweep,
                                std::span<const std::uint32_t> bursts, const Prediction* prediction,
                                ByteWriter& writer, FrameStatistics& statistics);

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "codec/relative_pose.h"
 #include "codec/sections.h"
 #include "predict/band_coding.h"
 #include "predict/priors.h"
@@ -12,15 +11,16 @@
 namespace pointreel {
 namespace {
 
-ReferenceImage reference_image(const ImageSetting& setting, const ReferenceSweep& reference,
-                               const Pose& T_ref_cur) {
-  return warp(setting.model, setting.grid, reference, T_ref_cur, setting.threads);
+ReferenceImage reference_image(const ImageSetting& setting, const Prediction* prediction) {
+  if (prediction == nullptr) return {};
+  return warp(setting.model, setting.grid, prediction->reference, prediction->T_ref_cur, setting.threads);
 }
 
 // One a band: what the reference's bands have taught, or the priors where it has other bands or none.
 std::vector<BandState> starting_states(const CodingKind& kind, float step_m, const std::vector<Band>& bands,
-                                       const ReferenceSweep* reference) {
-  if (reference != nullptr && reference->states.size() == bands.size()) return reference->states;
+                                       const Prediction* prediction) {
+  if (prediction != nullptr && prediction->reference.states.size() == bands.size())
+    return prediction->reference.states;
   std::vector<BandState> states;
   for (const Band& band : bands) states.push_back(state_from_priors(kind, step_m, band));
   return states;
@@ -31,17 +31,10 @@ std::vector<BandState> starting_states(const CodingKind& kind, float step_m, con
 std::vector<BandState> encode_image(const ImageSetting& setting, const Prediction* prediction,
                                     GridImage& image, ByteWriter& writer, FrameStatistics& statistics) {
   const CodingKind kind{prediction != nullptr, setting.effort};
-  ReferenceImage reference;
-  if (prediction != nullptr) {
-    const std::size_t before = writer.size();
-    put_relative_pose(writer, prediction->T_ref_cur);
-    statistics.grid_bits += bits_of(writer.size() - before);
-    reference = reference_image(setting, prediction->reference, *quantised(prediction->T_ref_cur));
-  }
-  const BandSetting band_setting{kind, setting.quantiser, &reference};
+  const ReferenceImage reference = reference_image(setting, prediction);
+  const BandSetting band_setting{kind, setting.quantiser, &reference, {}, setting.known_range_m};
   const auto bands = bands_of(image.rows, image.columns);
-  auto states = starting_states(kind, setting.quantiser.step_m, bands,
-                                prediction != nullptr ? &prediction->reference : nullptr);
+  auto states = starting_states(kind, setting.quantiser.step_m, bands, prediction);
   std::vector<CodedBand> coded(bands.size());
   parallel_for(bands.size(), setting.threads,
                [&](std::size_t b) { coded[b] = encode_band(band_setting, bands[b], image, states[b]); });
@@ -55,16 +48,9 @@ std::vector<BandState> encode_image(const ImageSetting& setting, const Predictio
   return states;
 }
 
-Result<std::vector<BandState>> decode_image(const ImageSetting& setting,
-                                            const ReferenceSweep* reference_sweep, ByteReader& reader,
-                                            GridImage& image) {
-  const CodingKind kind{reference_sweep != nullptr, setting.effort};
-  Pose T_ref_cur = Pose::Identity();
-  if (reference_sweep != nullptr) {
-    const auto pose = get_relative_pose(reader);
-    if (!pose) return pose.error();
-    T_ref_cur = *pose;
-  }
+Result<std::vector<BandState>> decode_image(const ImageSetting& setting, const Prediction* prediction,
+                                            ByteReader& reader, GridImage& image) {
+  const CodingKind kind{prediction != nullptr, setting.effort};
   const auto bands = bands_of(image.rows, image.columns);
   std::vector<std::span<const std::uint8_t>> masks(bands.size()), ranges(bands.size());
   for (std::size_t b = 0; b < bands.size(); ++b) {
@@ -72,10 +58,9 @@ Result<std::vector<BandState>> decode_image(const ImageSetting& setting,
     ranges[b] = get_section(reader);
   }
   if (!reader.ok()) return Error{ErrorCode::truncated, "it ends within its ranges"};
-  ReferenceImage reference;
-  if (reference_sweep != nullptr) reference = reference_image(setting, *reference_sweep, T_ref_cur);
-  const BandSetting band_setting{kind, setting.quantiser, &reference};
-  auto states = starting_states(kind, setting.quantiser.step_m, bands, reference_sweep);
+  const ReferenceImage reference = reference_image(setting, prediction);
+  const BandSetting band_setting{kind, setting.quantiser, &reference, {}, setting.known_range_m};
+  auto states = starting_states(kind, setting.quantiser.step_m, bands, prediction);
   std::vector<Result<void>> results(bands.size());
   parallel_for(bands.size(), setting.threads, [&](std::size_t b) {
     results[b] = decode_band(band_setting, bands[b], masks[b], ranges[b], image, states[b]);

@@ -1,7 +1,7 @@
 // The range image of a sweep as sections of its payload: from an earlier sweep where there is one, by itself
 // where there is none.
 //
-//   pose of the sweep in the reference (predicted frames) -> warped reference -> bands, in parallel
+//   warped reference (predicted frames) -> bands, in parallel
 #pragma once
 
 #include "base/bytes.h"
@@ -19,12 +19,13 @@ struct ImageSetting {
   const RangeQuantiser& quantiser;
   Effort effort = Effort::balanced;
   int threads = 1;
+  std::span<const float> known_range_m = {};  // BandSetting::known_range_m
 };
 
-// The earlier sweep that a predicted frame starts from, and the motion since.
+// The earlier sweep that a predicted frame starts from, and the motion since, as the stream has it.
 struct Prediction {
   const ReferenceSweep& reference;
-  Pose T_ref_cur = Pose::Identity();  // the encoder's: it is rounded for the stream
+  Pose T_ref_cur = Pose::Identity();
 };
 
 // `prediction`: nullptr for a frame by itself. The ranges are replaced by what the decoder will see. Gives
@@ -32,8 +33,8 @@ struct Prediction {
 std::vector<BandState> encode_image(const ImageSetting& setting, const Prediction* prediction,
                                     GridImage& image, ByteWriter& writer, FrameStatistics& statistics);
 
-// `reference`: nullptr for a frame by itself. Fills an empty image. Error: truncated or corrupt.
-Result<std::vector<BandState>> decode_image(const ImageSetting& setting, const ReferenceSweep* reference,
+// Fills an empty image. Error: truncated or corrupt.
+Result<std::vector<BandState>> decode_image(const ImageSetting& setting, const Prediction* prediction,
                                             ByteReader& reader, GridImage& image);
 
 }  // namespace pointreel

@@ -24,7 +24,7 @@ class Decoder::Implementation {
   virtual std::vector<Result<DecodedSweep>> decode(std::span<const Packet> packets) = 0;
 };
 
-// codec/mixture_encoder.cpp, codec/mixture_decoder.cpp
+// codec/mixture_encoder.cpp, codec/mixture_decoder.cpp: both methods on the sensor's grid
 Result<std::unique_ptr<Encoder::Implementation>> make_mixture_encoder(const EncoderOptions& options,
                                                                       const Runtime& runtime);
 Result<std::unique_ptr<Decoder::Implementation>> make_mixture_decoder(const StreamHeader& header,
@@ -32,7 +32,7 @@ Result<std::unique_ptr<Decoder::Implementation>> make_mixture_decoder(const Stre
 Result<std::vector<std::int64_t>> pair_mixture_points(const StreamHeader& header, const PointCloud& original,
                                                       const DecodedSweep& decoded);
 
-// codec/planes_encoder.cpp, codec/planes_decoder.cpp
+// codec/planes_encoder.cpp, codec/planes_decoder.cpp: planes on the uniform grid
 Result<std::unique_ptr<Encoder::Implementation>> make_planes_encoder(const EncoderOptions& options,
                                                                      const Runtime& runtime);
 Result<std::unique_ptr<Decoder::Implementation>> make_planes_decoder(const StreamHeader& header,

@@ -1,5 +1,5 @@
-// Method `mixture`, the way back: sensor model -> cells and ranges -> points in order -> corrections, strays
-// -> fields.
+// The sensor's grid, the way back: sensor model -> planes -> cells and ranges -> points in order ->
+// corrections, strays -> fields.
 #include <optional>
 #include <string>
 
@@ -72,11 +72,10 @@ class MixtureDecoder final : public Decoder::Implementation {
       reference =
           reference_from(model_, last_image_.grid, last_image_.image.range_m, last_image_.states, threads_);
 
-    auto geometry =
-        coding == SweepCoding::scattered
-            ? decode_scattered_sweep(packet, reader)
-            : decode_gridded({model_, header_.max_error_m, header_.effort, threads_}, packet.points_out,
-                             coding == SweepCoding::predicted ? &reference : nullptr, reader);
+    auto geometry = coding == SweepCoding::scattered
+                        ? decode_scattered_sweep(packet, reader)
+                        : decode_gridded(geometry_setting(header_, model_, threads_), packet.points_out,
+                                         coding == SweepCoding::predicted ? &reference : nullptr, reader);
     if (!geometry) return geometry.error();
     const std::size_t field_bytes = ByteReader(reader).rest().size();  // a copy: rest() takes them
     for (const Point3f& position : geometry->positions) {

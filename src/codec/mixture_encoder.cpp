@@ -1,4 +1,5 @@
-// Method `mixture`: find the sensor -> project -> predict and code -> verify -> fields -> packet.
+// The sensor's grid, methods `mixture` and `planes`: find the sensor -> project -> find planes -> predict and
+// code -> verify -> fields -> packet.
 #include <algorithm>
 #include <numeric>
 #include <optional>
@@ -82,9 +83,8 @@ class MixtureEncoder final : public Encoder::Implementation {
       }
       reference_frame = T_ref_cur ? packet.frame - 1 : *model_frame_;
       const auto prediction = T_ref_cur ? std::optional(Prediction{reference_, *T_ref_cur}) : std::nullopt;
-      encoded =
-          encode_gridded({*model_, header_.max_error_m, header_.effort, threads_}, cloud, *std::move(gridded),
-                         bursts, prediction ? &*prediction : nullptr, writer, packet.statistics);
+      encoded = encode_gridded(geometry_setting(header_, *model_, threads_), cloud, *std::move(gridded),
+                               bursts, prediction ? &*prediction : nullptr, writer, packet.statistics);
       ++model_age_;
       if (temporal_ && !starts_group())
         reference_ = reference_from(*model_, encoded.image.grid, encoded.image.image.range_m,
@@ -188,6 +188,7 @@ Result<std::unique_ptr<Encoder::Implementation>> make_mixture_encoder(const Enco
   header.max_error_m = options.mixture.max_error_m;
   header.group = options.mixture.group;
   header.effort = options.mixture.effort;
+  header.planes.grid = PlaneGrid::sensor;
   if (const auto valid = validate(header); !valid) return valid.error();
   for (const FieldStep& field : options.mixture.fields.named) {
     if (!(field.step >= 0 && field.step <= 1e300)) {

@@ -89,9 +89,11 @@ std::vector<std::uint8_t> serialize(const StreamHeader& header) {
   writer.put(std::span(kStreamMagic));
   writer.put(kFormatVersion);
   writer.put(header.method);
-  if (header.method == Method::mixture) {
+  if (header.on_sensor_grid()) {
     writer.put(header.effort);
     writer.put(static_cast<std::uint8_t>(header.group));
+    writer.put(std::uint8_t{0});
+    writer.put(header.method == Method::planes ? PlaneGrid::sensor : PlaneGrid{});
     while (writer.size() < kMaxErrorOffset) writer.put(std::uint8_t{0});
     writer.put(header.max_error_m);
     while (writer.size() < kStreamHeaderBytes - kChecksumBytes) writer.put(std::uint8_t{0});
@@ -99,7 +101,8 @@ std::vector<std::uint8_t> serialize(const StreamHeader& header) {
     writer.put(static_cast<std::uint8_t>(header.planes.tile_size));
     writer.put(static_cast<std::uint8_t>(header.planes.group));
     writer.put(header.planes.residual_mode);
-    writer.put(std::uint16_t{0});
+    writer.put(header.planes.grid);
+    writer.put(std::uint8_t{0});
     writer.put(header.planes.threshold_m);
     writer.put(header.planes.azimuth_step_rad);
     writer.put(header.planes.elevation_step_rad);
@@ -123,19 +126,24 @@ Result<StreamHeader> parse_stream_header(std::span<const std::uint8_t> bytes) {
   }
   StreamHeader header;
   header.method = reader.get<Method>();
+  // The same place for both grids; methods without it have 0 there.
+  const auto grid = bytes.size() > kGridOffset ? static_cast<PlaneGrid>(bytes[kGridOffset]) : PlaneGrid{};
   std::uint64_t reserved = 0;
-  if (header.method == Method::mixture) {
+  if (header.method == Method::planes) header.planes.grid = grid;
+  if (header.on_sensor_grid()) {
     header.effort = reader.get<Effort>();
     header.group = reader.get<std::uint8_t>();
     reserved |= reader.get<std::uint8_t>();
-    reserved |= reader.get<std::uint16_t>();
+    reserved |= reader.get<std::uint8_t>() != 0 && header.method != Method::planes ? 1U : 0U;
+    reserved |= reader.get<std::uint8_t>();
     header.max_error_m = reader.get<double>();
     for (int i = 0; i < 3; ++i) reserved |= reader.get<std::uint64_t>();
   } else {
     header.planes.tile_size = reader.get<std::uint8_t>();
     header.planes.group = reader.get<std::uint8_t>();
     header.planes.residual_mode = reader.get<ResidualMode>();
-    reserved = reader.get<std::uint16_t>();
+    reader.get<PlaneGrid>();
+    reserved = reader.get<std::uint8_t>();
     header.planes.threshold_m = reader.get<double>();
     header.planes.azimuth_step_rad = reader.get<double>();
     header.planes.elevation_step_rad = reader.get<double>();

@@ -8,8 +8,12 @@
 
 namespace pointreel {
 
+bool StreamHeader::on_sensor_grid() const {
+  return method == Method::mixture || planes.grid == PlaneGrid::sensor;
+}
+
 double StreamHeader::bound_m() const {
-  if (method == Method::mixture) return max_error_m;
+  if (on_sensor_grid()) return max_error_m;
   return planes.residual_mode == ResidualMode::raw_float
              ? planes.threshold_m
              : std::max(planes.threshold_m, planes.residual_step_m / 2);
@@ -22,7 +26,11 @@ Result<void> validate(const StreamHeader& header) {
   };
   const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
   const PlanesOptions& planes = header.planes;
-  if (header.method == Method::mixture) {
+  if (header.method != Method::planes && header.method != Method::mixture) {
+    return Error{ErrorCode::unsupported,
+                 "method " + std::to_string(static_cast<int>(header.method)) + " is not known"};
+  }
+  if (header.on_sensor_grid()) {
     if (!within(header.max_error_m, 0.0005, 1)) {
       return out_of_range("max-error", header.max_error_m, "0.0005 to 1 m");
     }
@@ -33,9 +41,9 @@ Result<void> validate(const StreamHeader& header) {
     }
     return {};
   }
-  if (header.method != Method::planes) {
+  if (planes.grid != PlaneGrid::uniform) {
     return Error{ErrorCode::unsupported,
-                 "method " + std::to_string(static_cast<int>(header.method)) + " is not known"};
+                 "grid " + std::to_string(static_cast<int>(planes.grid)) + " is not known"};
   }
   if (!within(planes.threshold_m, 0.001, 10))
     return out_of_range("threshold", planes.threshold_m, "0.001 to 10 m");

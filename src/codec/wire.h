@@ -15,6 +15,7 @@ inline constexpr std::array<std::uint8_t, 8> kStreamMagic = {0x89, 'R', 'E', 'E'
 inline constexpr std::uint16_t kFormatVersion = 1;
 inline constexpr std::size_t kChecksumBytes = 4;  // XXH32, seed 0, of everything before it
 inline constexpr std::size_t kStreamHeaderBytes = 52;
+inline constexpr std::size_t kGridOffset = 14;  // of method `planes`
 inline constexpr std::size_t kMaxErrorOffset = 16;
 
 inline constexpr std::uint32_t kPacketSync = 0x4B505250;  // "PRPK"

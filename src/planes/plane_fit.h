@@ -24,6 +24,16 @@ class PlaneMoments {
     x_ += b * ux, y_ += b * uy, z_ += b * uz;
   }
 
+  // The same for points in the sensor's coordinates; `counts`: 1 or 0. Eigen arrays of one size.
+  template <class Array>
+  void add_points(const Array& x, const Array& y, const Array& z, const Array& counts) {
+    const Array r2 = counts * (x * x + y * y + z * z);
+    const Array wx = r2 * x, wy = r2 * y, wz = r2 * z;
+    xx_ += (wx * x).sum(), xy_ += (wx * y).sum(), xz_ += (wx * z).sum();
+    yy_ += (wy * y).sum(), yz_ += (wy * z).sum(), zz_ += (wz * z).sum();
+    x_ += wx.sum(), y_ += wy.sum(), z_ += wz.sum();
+  }
+
   PlaneMoments& operator+=(const PlaneMoments& other) {
     xx_ += other.xx_, xy_ += other.xy_, xz_ += other.xz_, yy_ += other.yy_, yz_ += other.yz_,
         zz_ += other.zz_;

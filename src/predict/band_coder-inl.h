@@ -24,6 +24,7 @@ bool code_band(Coder& mask_coder, Coder& range_coder, const BandSetting& setting
   constexpr int kRows = Wavefront::kRows, kLag = Wavefront::kLag;
   const RangeQuantiser& quantiser = setting.quantiser;
   const int columns = image.columns;
+  const float* known_m = setting.known_range_m.empty() ? nullptr : setting.known_range_m.data();
   HitMaskModel<kEffort, kPredicted> mask(columns, state.mask);
   RangeModel<kEffort, kPredicted> ranges(columns, setting, state.ranges);
   ReferencePlanes reference(kPredicted ? columns : 0);
@@ -38,15 +39,21 @@ bool code_band(Coder& mask_coder, Coder& range_coder, const BandSetting& setting
     if constexpr (kPredicted) reference.load_block(*setting.reference, band.first_row + first);
     for (int step = 0; step < Wavefront::steps(columns); ++step) {
       mask.predict(step, &reference);
-      ranges.predict(step, &reference);
+      ranges.start_step();
       // Row r stands at column step - kLag r.
       const int first_row = std::max(0, (step - columns) / kLag + (step >= columns ? 1 : 0));
       const int end_row = std::min(rows, step / kLag + 1);
       for (int row = first_row; row < end_row; ++row) {
         const auto cell = static_cast<std::size_t>(row);
-        float& range_m = image.range_m[image.index(band.first_row + first + row, step - kLag * row)];
+        const std::size_t index = image.index(band.first_row + first + row, step - kLag * row);
+        float& range_m = image.range_m[index];
         if (!mask.code(mask_coder, cell, first + row, range_m > 0)) continue;
-        range_m = ranges.code(range_coder, cell, first + row, range_m);
+        if (known_m != nullptr && known_m[index] > 0) {
+          range_m = ranges.take_known(cell, known_m[index]);
+        } else {
+          if (!ranges.has_predicted()) ranges.predict(step, &reference);
+          range_m = ranges.code(range_coder, cell, first + row, range_m);
+        }
       }
       ranges.remember(step);
       mask.remember(step, ranges.decoded_m());

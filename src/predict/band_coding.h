@@ -42,6 +42,8 @@ struct BandSetting {
   const RangeQuantiser& quantiser;
   const ReferenceImage* reference;  // of the image's size; for predicted frames only
   Ingredients ingredients = {};
+  // By cell of the image, or empty: ranges that returns have without being coded; 0: not known.
+  std::span<const float> known_range_m = {};
 };
 
 // Ranges in the band must be 0 or positive and within kMostRangeSteps steps; they are replaced by what the

@@ -124,6 +124,14 @@ HWY_NOINLINE void store_errors(const Proposals<kExperts>& proposals, const Float
   }
 }
 
+// The same where there are no proposals.
+template <std::size_t kExperts>
+POINTREEL_INLINE void store_equal_errors(float squared_error_m2, int step, ErrorPlanes<kExperts>& errors) {
+  float* to = errors.at(step);
+  for (std::size_t k = 0; k < kExperts; ++k)
+    store(all<8>(squared_error_m2), to + k * ErrorPlanes<kExperts>::kPitch);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace pointreel
 HWY_AFTER_NAMESPACE();

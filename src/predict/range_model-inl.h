@@ -44,7 +44,16 @@ class RangeModel {
     lattice_phase_m_ = lattice_phase_m;
   }
 
-  // Looks at what is known of eight cells.
+  // Eight cells without returns so far.
+  POINTREEL_INLINE void start_step() {
+    predicted_ = false;
+    for (std::size_t i = 0; i < Wavefront::kRows; ++i) {
+      decoded_m_[i] = 0;
+      coded_steps_[i] = 0;
+    }
+  }
+
+  // Looks at what is known of them; only needed before code().
   POINTREEL_INLINE void predict(int step, const ReferencePlanes* reference) {
     const Neighbourhood cells(planes_, step);
     if constexpr (kPredicted) {
@@ -55,11 +64,12 @@ class RangeModel {
     if (ingredients_.experts_off != 0) leave_out_experts();
     blend<kExperts>(errors_, cells, step, step_m_, proposals_, blended_);
     contexts_ = StepContexts(steps_, cells, step);
-    for (std::size_t i = 0; i < Wavefront::kRows; ++i) {
-      decoded_m_[i] = 0;
-      coded_steps_[i] = 0;
-    }
+    predicted_ = true;
   }
+  bool has_predicted() const { return predicted_; }
+
+  // One of them holds a return whose range both sides know.
+  POINTREEL_INLINE float take_known(std::size_t cell, float range_m) { return decoded_m_[cell] = range_m; }
 
   // Codes the range of one of them, which holds a return, and gives back the reconstruction, within half a
   // step of `range_m` (which a decoder ignores). `row`: in the band.
@@ -94,11 +104,18 @@ class RangeModel {
     store(where(seen(decoded_m), all<8>(1) / larger(decoded_m, all<8>(kSmallestRangeM))),
           planes_.inverse_range.at(step));
     store(load_ints<8>(coded_steps_), steps_.at(step));
-    store_errors<kExperts>(proposals_, decoded_m, step, errors_);
+    if (predicted_) {
+      store_errors<kExperts>(proposals_, decoded_m, step, errors_);
+    } else {
+      store_equal_errors<kExperts>(kUnknownSquaredShare * step_m_ * step_m_, step, errors_);
+    }
     memory_.add(decoded_m);
   }
 
  private:
+  // Squared errors where no expert was asked, in squared steps: as on a smooth surface.
+  static constexpr float kUnknownSquaredShare = 0.1F;
+
   // Hostile streams reach beyond the integers, where processors disagree about conversions.
   static POINTREEL_INLINE std::int32_t rounded(float x) {
     constexpr float kMost = 1 << 30;
@@ -131,6 +148,7 @@ class RangeModel {
   StepContexts contexts_;
   alignas(32) float decoded_m_[Wavefront::kRows];
   alignas(32) std::int32_t coded_steps_[Wavefront::kRows];
+  bool predicted_ = false;
 };
 
 }  // namespace HWY_NAMESPACE

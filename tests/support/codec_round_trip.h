@@ -1,4 +1,5 @@
-// Sweeps through Encoder and Decoder, with everything checked that method `planes` promises.
+// Sweeps through Encoder and Decoder, with everything checked that method `planes` promises on its uniform
+// grid.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,10 +15,11 @@
 
 namespace pointreel {
 
-// Method `planes` as its defaults have it.
+// Method `planes` on its uniform grid.
 inline EncoderOptions planes_options() {
   EncoderOptions options;
   options.method = Method::planes;
+  options.planes.grid = PlaneGrid::uniform;
   return options;
 }
 

@@ -12,28 +12,35 @@
 namespace pointreel {
 namespace {
 
-// What to do instead of giving the option to the other method.
+// What to do instead of giving the option with the other grid.
 std::string_view advice_for(std::string_view option) {
-  if (option == "--max-error") return "; method planes has --threshold";
-  if (option == "--fields") return "; method planes carries geometry only";
-  if (option == "--no-temporal") return "; for method planes, use --group 1";
-  if (option == "--threshold") return "; method mixture has --max-error";
+  if (option == "--max-error") return "; the uniform grid has --threshold";
+  if (option == "--fields") return "; the uniform grid carries geometry only";
+  if (option == "--no-temporal") return "; for the uniform grid, use --group 1";
+  if (option == "--threshold") return "; all else has --max-error";
   return "";
 }
 
-Result<void> belongs_to_method(const std::vector<const CLI::Option*>& options, std::string_view method) {
-  for (const CLI::Option* option : options) {
+bool is_uniform(const EncodeArguments& arguments) {
+  return arguments.method == "planes" && arguments.grid == "uniform";
+}
+
+Result<void> options_fit(const EncodeArguments& arguments) {
+  if (arguments.method != "planes" && arguments.grid_option->count() > 0)
+    return Error{ErrorCode::invalid_argument, "--grid goes with --method planes only"};
+  const bool uniform = is_uniform(arguments);
+  for (const CLI::Option* option : uniform ? arguments.sensor_only : arguments.uniform_only) {
     if (option->count() == 0) continue;
     return Error{ErrorCode::invalid_argument,
-                 fmt::format("{} goes with --method {} only{}", option->get_name(), method,
-                             advice_for(option->get_name()))};
+                 fmt::format("{} goes {} --method planes --grid uniform{}", option->get_name(),
+                             uniform ? "not with" : "only with", advice_for(option->get_name()))};
   }
   return {};
 }
 
-Result<EncoderOptions> mixture_options(const EncodeArguments& arguments) {
+Result<EncoderOptions> sensor_grid_options(const EncodeArguments& arguments) {
   EncoderOptions options;
-  options.method = Method::mixture;
+  options.method = arguments.method == "planes" ? Method::planes : Method::mixture;
   const auto max_error = parse_length_m(arguments.max_error);
   if (!max_error) return Error{ErrorCode::invalid_argument, "--max-error: " + max_error.error().message};
   options.mixture.max_error_m = *max_error;
@@ -48,9 +55,10 @@ Result<EncoderOptions> mixture_options(const EncodeArguments& arguments) {
   return options;
 }
 
-Result<EncoderOptions> planes_options(const EncodeArguments& arguments) {
+Result<EncoderOptions> uniform_grid_options(const EncodeArguments& arguments) {
   EncoderOptions options;
   options.method = Method::planes;
+  options.planes.grid = PlaneGrid::uniform;
   const auto threshold = parse_length_m(arguments.threshold);
   if (!threshold) return Error{ErrorCode::invalid_argument, "--threshold: " + threshold.error().message};
   const auto azimuth_step = parse_angle_rad(arguments.azimuth_step);
@@ -117,13 +125,18 @@ void add_encode_arguments(CLI::App& verb, EncodeArguments& arguments) {
   verb.add_option("--idle", arguments.idle_s, "Seconds without a new sweep that end --follow, too")
       ->check(CLI::Range(0.0, 1e6));
   verb.add_option("--method", arguments.method,
-                  "mixture: every point, within a bound; planes: the nearest point of each cell, on planes")
+                  "mixture: ranges, each predicted from many sides; planes: as far as they fit, planes")
       ->check(CLI::IsMember({"mixture", "planes"}))
       ->capture_default_str();
+  arguments.grid_option =
+      verb.add_option("--grid", arguments.grid,
+                      "Of method planes. sensor: every point, within a bound, as with mixture; uniform: the "
+                      "paper's, the nearest point of each cell")
+          ->check(CLI::IsMember({"sensor", "uniform"}))
+          ->capture_default_str();
   verb.add_option(
       "--group", arguments.group,
-      "Sweeps that share a key frame, 1 to 255; 1 = each by itself. Default: 10 for mixture, 5 for "
-      "planes");
+      "Sweeps that share a key frame, 1 to 255; 1 = each by itself. Default: 10, or 5 with --grid uniform");
   verb.add_option("--threads", arguments.threads,
                   "0: one per processor; the bytes are the same for any number")
       ->check(CLI::Range(0, 256))
@@ -131,8 +144,8 @@ void add_encode_arguments(CLI::App& verb, EncodeArguments& arguments) {
   verb.add_flag("-f,--force", arguments.force, "Overwrite the output");
   verb.add_flag("--json", arguments.json, "Report as JSON on standard output");
 
-  const std::string mixture = "Method mixture";
-  arguments.mixture_only = {
+  const std::string mixture = "Method mixture, and planes with --grid sensor";
+  arguments.sensor_only = {
       verb.add_option("--max-error", arguments.max_error,
                       "Distance of any point from where it was at most, 0.5mm to 1m")
           ->capture_default_str()
@@ -150,8 +163,8 @@ void add_encode_arguments(CLI::App& verb, EncodeArguments& arguments) {
       verb.add_flag("--no-temporal", arguments.no_temporal, "Predict no sweep from the one before it")
           ->group(mixture)};
 
-  const std::string planes = "Method planes";
-  arguments.planes_only = {
+  const std::string planes = "Method planes with --grid uniform";
+  arguments.uniform_only = {
       verb.add_option("--threshold", arguments.threshold, "Range error on planes at most, 1mm to 10m")
           ->capture_default_str()
           ->group(planes),
@@ -182,12 +195,9 @@ void add_encode_arguments(CLI::App& verb, EncodeArguments& arguments) {
 }
 
 Result<EncoderOptions> encoder_options(const EncodeArguments& arguments) {
-  const bool mixture = arguments.method == "mixture";
-  const auto valid = mixture ? belongs_to_method(arguments.planes_only, "planes")
-                             : belongs_to_method(arguments.mixture_only, "mixture");
-  if (!valid) return valid.error();
+  if (const auto valid = options_fit(arguments); !valid) return valid.error();
   if (const auto live = check_live(arguments); !live) return live.error();
-  return mixture ? mixture_options(arguments) : planes_options(arguments);
+  return is_uniform(arguments) ? uniform_grid_options(arguments) : sensor_grid_options(arguments);
 }
 
 }  // namespace pointreel

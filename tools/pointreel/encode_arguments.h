@@ -14,13 +14,14 @@ struct EncodeArguments {
   std::vector<std::string> inputs;
   std::string output;
   std::string method = "mixture";
-  std::optional<int> group;  // none: the method's own default
-  // mixture
+  std::string grid = "sensor";  // of method planes
+  std::optional<int> group;     // none: the method's own default
+  // on the sensor's grid
   std::string max_error = "2cm";
   std::string fields = "all";
   std::string effort = "balanced";
   bool no_temporal = false;
-  // planes
+  // planes on the uniform grid
   std::string threshold = "0.1";
   std::string azimuth_step = "0.18deg";
   std::string elevation_step = "0.45deg";
@@ -35,8 +36,9 @@ struct EncodeArguments {
   bool force = false;
   bool json = false;
 
-  // Options that were given though they belong to one method only.
-  std::vector<const CLI::Option*> mixture_only, planes_only;
+  // Options that go with one grid only, and the one that chooses it.
+  std::vector<const CLI::Option*> sensor_only, uniform_only;
+  const CLI::Option* grid_option = nullptr;
 };
 
 // Sweeps are taken as they arrive, instead of from files that are all there.

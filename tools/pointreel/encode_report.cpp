@@ -19,16 +19,18 @@ namespace {
 using Parts = std::vector<std::pair<std::string_view, double>>;  // bits
 
 // Without the container, which has the rest.
-Parts parts_of(const FrameStatistics& parts, Method method) {
-  if (method == Method::planes) {
+Parts parts_of(const FrameStatistics& parts, const StreamHeader& header) {
+  if (!header.on_sensor_grid()) {
     return {
         {"occupancy", parts.occupancy_bits}, {"planes", parts.plane_bits}, {"residual", parts.residual_bits}};
   }
-  return {{"model", parts.model_bits},         {"grid", parts.grid_bits},
-          {"occupancy", parts.occupancy_bits}, {"ranges", parts.range_bits},
-          {"order", parts.order_bits},         {"corrections", parts.correction_bits},
-          {"strays", parts.stray_bits},        {"scattered", parts.scattered_bits},
-          {"fields", parts.field_bits}};
+  Parts all = {{"model", parts.model_bits},         {"grid", parts.grid_bits},
+               {"occupancy", parts.occupancy_bits}, {"ranges", parts.range_bits},
+               {"order", parts.order_bits},         {"corrections", parts.correction_bits},
+               {"strays", parts.stray_bits},        {"scattered", parts.scattered_bits},
+               {"fields", parts.field_bits}};
+  if (header.method == Method::planes) all.insert(all.begin() + 3, {"planes", parts.plane_bits});
+  return all;
 }
 
 // Rates of an encoded drive.
@@ -56,13 +58,13 @@ std::vector<std::string> fields_left_out(const EncodeTotals& totals, const Strea
                                          const FieldSelection& fields) {
   std::vector<std::string> names;
   for (const std::string& name : totals.fields) {
-    if (header.method == Method::planes || !keeps(fields, name)) names.push_back(name);
+    if (!header.on_sensor_grid() || !keeps(fields, name)) names.push_back(name);
   }
   return names;
 }
 
-nlohmann::json mixture_json(const EncodeTotals& totals, const StreamHeader& header,
-                            const FieldSelection& fields, const Rates& rates) {
+nlohmann::json sensor_grid_json(const EncodeTotals& totals, const StreamHeader& header,
+                                const FieldSelection& fields, const Rates& rates) {
   nlohmann::json kept = nlohmann::json::object();
   for (const std::string& name : totals.fields) {
     const FieldStep* named = fields.find(name);
@@ -76,7 +78,7 @@ nlohmann::json mixture_json(const EncodeTotals& totals, const StreamHeader& head
           {"fields", kept}};
 }
 
-nlohmann::json planes_json(const EncodeTotals& totals) {
+nlohmann::json cells_json(const EncodeTotals& totals) {
   return {{"cells",
            {{"spatial", totals.parts.spatial_cells},
             {"temporal", totals.parts.temporal_cells},
@@ -84,29 +86,34 @@ nlohmann::json planes_json(const EncodeTotals& totals) {
           {"plane_runs", totals.parts.runs}};
 }
 
-void print_planes(std::FILE* out, const EncodeTotals& totals, const StreamHeader& header,
-                  const Rates& rates) {
+void print_cells(std::FILE* out, const EncodeTotals& totals, const char* reused) {
   const double cells = std::max(1.0, static_cast<double>(totals.points_out));
+  fmt::print(out, "  cells           {:.1f} % on own planes, {:.1f} % on {}, {:.1f} % unfit\n",
+             100 * totals.parts.spatial_cells / cells, 100 * totals.parts.temporal_cells / cells, reused,
+             100 * totals.parts.unfit_cells / cells);
+}
+
+void print_uniform_grid(std::FILE* out, const EncodeTotals& totals, const StreamHeader& header,
+                        const Rates& rates) {
   fmt::print(out, "  bits per point  occupancy {:.3f}, planes {:.3f}, residual map {:.3f}\n",
              rates.per_point(totals.parts.occupancy_bits), rates.per_point(totals.parts.plane_bits),
              rates.per_point(totals.parts.residual_bits));
-  fmt::print(out, "  cells           {:.1f} % on own planes, {:.1f} % on the key frame's, {:.1f} % unfit\n",
-             100 * totals.parts.spatial_cells / cells, 100 * totals.parts.temporal_cells / cells,
-             100 * totals.parts.unfit_cells / cells);
+  print_cells(out, totals, "the key frame's");
   fmt::print(out, "  points          {} kept, {} lost to nearer ones in the same cell, {} not finite\n",
              totals.points_out, points_lost(totals), totals.non_finite);
   fmt::print(out, "  range error     at most {:g} m for kept points, plus rounding to the cells' angles\n",
              header.bound_m());
 }
 
-void print_mixture(std::FILE* out, const EncodeTotals& totals, const StreamHeader& header,
-                   const FieldSelection& fields, const Rates& rates) {
+void print_sensor_grid(std::FILE* out, const EncodeTotals& totals, const StreamHeader& header,
+                       const FieldSelection& fields, const Rates& rates) {
   std::string parts;
-  for (const auto& [name, bits] : parts_of(totals.parts, header.method)) {
+  for (const auto& [name, bits] : parts_of(totals.parts, header)) {
     if (bits == 0 || name == "fields") continue;
     parts += fmt::format("{}{} {:.3f}", parts.empty() ? "" : ", ", name, rates.per_point(bits));
   }
   fmt::print(out, "  bits per point  {}\n", parts);
+  if (header.method == Method::planes) print_cells(out, totals, "those of the sweep before");
   fmt::print(out, "  points          {} kept, {} not finite; {} off the sensor's grid, {} corrected\n",
              totals.points_out, totals.non_finite, totals.parts.stray_points, totals.parts.corrected_points);
   if (totals.scattered_sweeps > 0) {
@@ -140,17 +147,17 @@ void print_latency(std::FILE* out, const std::vector<double>& latency_ms) {
 }
 
 void print_json(const EncodeTotals& totals, const StreamHeader& header, const FieldSelection& fields) {
-  const bool mixture = header.method == Method::mixture;
+  const bool in_space = header.on_sensor_grid();
   const Rates rates(totals);
   nlohmann::json bits_by_part;
   double container_bits = rates.bits();
-  for (const auto& [name, bits] : parts_of(totals.parts, header.method)) {
+  for (const auto& [name, bits] : parts_of(totals.parts, header)) {
     bits_by_part[std::string(name)] = bits;
     container_bits -= bits;
   }
   bits_by_part["container"] = container_bits;
   nlohmann::json json = {
-      {"method", mixture ? "mixture" : "planes"},
+      {"method", header.method == Method::mixture ? "mixture" : "planes"},
       {"frames", totals.frames},
       {"points", totals.points},
       {"points_kept", totals.points_out},
@@ -165,26 +172,26 @@ void print_json(const EncodeTotals& totals, const StreamHeader& header, const Fi
        totals.wall_s > 0 ? static_cast<double>(totals.frames) / totals.wall_s : 0},
       {"bits_by_part", bits_by_part},
       {"bound_m", header.bound_m()},
-      {"bound_kind", mixture ? "space" : "range"},
+      {"bound_kind", in_space ? "space" : "range"},
       {"fields_left_out", fields_left_out(totals, header, fields)}};
   if (totals.live) json["latency_ms"] = latency_json(totals.latency_ms);
-  json.update(mixture ? mixture_json(totals, header, fields, rates) : planes_json(totals));
+  if (in_space) json.update(sensor_grid_json(totals, header, fields, rates));
+  if (header.method == Method::planes) json.update(cells_json(totals));
   fmt::print("{}\n", json.dump(2));
 }
 
 void print_summary(const EncodeTotals& totals, const StreamHeader& header, const FieldSelection& fields,
                    const std::string& output) {
   std::FILE* out = output == "-" ? stderr : stdout;
-  const bool mixture = header.method == Method::mixture;
   const Rates rates(totals);
   fmt::print(out,
              "{}: {} sweeps, {} points -> {} ({:.3f} bits per point{}, {:.1f} : 1 against 96-bit x, y, z)\n",
              output, totals.frames, totals.points, format_bytes(static_cast<double>(totals.bytes)),
              rates.geometry(), totals.parts.field_bits > 0 ? " without fields" : "", rates.ratio_xyz32());
-  if (mixture)
-    print_mixture(out, totals, header, fields, rates);
+  if (header.on_sensor_grid())
+    print_sensor_grid(out, totals, header, fields, rates);
   else
-    print_planes(out, totals, header, rates);
+    print_uniform_grid(out, totals, header, rates);
   fmt::print(out,
              "  time            {:.1f} ms per sweep (median), {:.1f} sweeps/s with reading and writing\n",
              quantile(totals.ms_per_frame, 0.5), static_cast<double>(totals.frames) / totals.wall_s);
@@ -192,7 +199,7 @@ void print_summary(const EncodeTotals& totals, const StreamHeader& header, const
   const auto left_out = fields_left_out(totals, header, fields);
   if (!left_out.empty()) {
     fmt::print(out, "  left out        {}{}\n", fmt::join(left_out, ", "),
-               mixture ? "" : " (method planes carries geometry only)");
+               header.on_sensor_grid() ? "" : " (the uniform grid carries geometry only)");
   }
 }
 

@@ -60,14 +60,17 @@ const char* name_of(Effort effort) {
 }
 
 nlohmann::json method_json(const StreamHeader& header) {
-  if (header.method == Method::mixture) {
-    return {{"method", "mixture"},
-            {"max_error_m", header.max_error_m},
-            {"group", header.group},
-            {"effort", name_of(header.effort)},
-            {"bound_kind", "space"}};
+  if (header.on_sensor_grid()) {
+    nlohmann::json json = {{"method", header.method == Method::mixture ? "mixture" : "planes"},
+                           {"max_error_m", header.max_error_m},
+                           {"group", header.group},
+                           {"effort", name_of(header.effort)},
+                           {"bound_kind", "space"}};
+    if (header.method == Method::planes) json["grid"] = "sensor";
+    return json;
   }
   return {{"method", "planes"},
+          {"grid", "uniform"},
           {"threshold_m", header.planes.threshold_m},
           {"azimuth_step_deg", degrees(header.planes.azimuth_step_rad)},
           {"elevation_step_deg", degrees(header.planes.elevation_step_rad)},
@@ -110,13 +113,14 @@ double bits_per_point(std::uint64_t bytes, std::uint64_t points) {
   return points == 0 ? 0 : 8.0 * static_cast<double>(bytes) / static_cast<double>(points);
 }
 
-void print_mixture(const Summary& summary, const StreamHeader& header) {
-  fmt::print("  method    mixture: every point within {:g} m, groups of {}, effort {}\n", header.max_error_m,
+void print_sensor_grid(const Summary& summary, const StreamHeader& header) {
+  fmt::print("  method    {}: every point within {:g} m, groups of {}, effort {}\n",
+             header.method == Method::mixture ? "mixture" : "planes on the sensor's grid", header.max_error_m,
              header.group, name_of(header.effort));
   fmt::print("  kept      {} points; {} not finite\n", summary.points_out, summary.non_finite);
 }
 
-void print_planes(const Summary& summary, const PlanesOptions& planes) {
+void print_uniform_grid(const Summary& summary, const PlanesOptions& planes) {
   fmt::print("  method    planes: threshold {:g} m, grid {:g} x {:g} deg, tiles {}x{}, groups of {}\n",
              planes.threshold_m, degrees(planes.azimuth_step_rad), degrees(planes.elevation_step_rad),
              planes.tile_size, planes.tile_size, planes.group);
@@ -130,15 +134,15 @@ void print_planes(const Summary& summary, const PlanesOptions& planes) {
 
 void print_summary(const Summary& summary, const StreamHeader& header, const std::string& name,
                    bool verbose) {
-  const bool mixture = header.method == Method::mixture;
+  const bool sensor_grid = header.on_sensor_grid();
   fmt::print("{}: {} sweeps ({} key frames), {} points, {} ({:.3f} bits per point{})\n", name,
              summary.frames.size(), summary.key_frames, summary.points_in,
              format_bytes(static_cast<double>(summary.bytes)),
-             bits_per_point(summary.bytes, summary.points_in), mixture ? " with fields" : "");
-  if (mixture)
-    print_mixture(summary, header);
+             bits_per_point(summary.bytes, summary.points_in), sensor_grid ? " with fields" : "");
+  if (sensor_grid)
+    print_sensor_grid(summary, header);
   else
-    print_planes(summary, header.planes);
+    print_uniform_grid(summary, header.planes);
   if (!verbose) return;
   fmt::print("\n  {:>7} {:>6} {:>4} {:>9} {:>9} {:>9} {:>9} {:>7}\n", "frame", "group", "kind", "reference",
              "bytes", "points in", "out", "bpp");

@@ -73,9 +73,8 @@ class Verifier {
     const auto pairs = pair_points(header_, *original, sweep);
     if (!pairs) return Error{pairs.error().code, path.string() + ": " + pairs.error().message};
     // Where every point is paired, its nearest neighbour tells nothing more.
-    verification_.quality.merge(header_.method == Method::mixture
-                                    ? measure_pairs(*original, sweep, *pairs)
-                                    : measure_quality(*original, sweep, *pairs));
+    verification_.quality.merge(header_.on_sensor_grid() ? measure_pairs(*original, sweep, *pairs)
+                                                         : measure_quality(*original, sweep, *pairs));
     if (sweep.order_kept) {
       const auto compared = compare_fields(*original, sweep, *pairs, verification_.fields);
       if (!compared) return Error{compared.error().code, path.string() + ": " + compared.error().message};
@@ -92,10 +91,10 @@ class Verifier {
     return {};
   }
 
-  // Method planes knows poses within a group only, so it starts over with each batch of groups; method
-  // mixture looks for the sensor once.
+  // On the uniform grid poses are known within a group only, so it starts over with each batch of groups; the
+  // sensor is looked for once.
   Result<void> ready_encoder() {
-    if (encoder_ && header_.method == Method::mixture) return {};
+    if (encoder_ && header_.on_sensor_grid()) return {};
     EncoderOptions options;
     options.method = header_.method;
     options.mixture.max_error_m = header_.max_error_m;
@@ -108,9 +107,9 @@ class Verifier {
     return {};
   }
 
-  // A group of method planes is encoded at its end: its sweeps share the time.
+  // A group on the uniform grid is encoded at its end: its sweeps share the time.
   Result<void> finish_encoding(std::size_t sweeps) {
-    if (header_.method == Method::planes) {
+    if (!header_.on_sensor_grid()) {
       const Stopwatch start;
       if (const auto packets = encoder_->finish(); !packets) return packets.error();
       const double sum_ms = std::accumulate(encode_ms_.begin(), encode_ms_.end(), start.elapsed_ms());

@@ -14,10 +14,6 @@ constexpr double kRelativeRoundingAllowance = 3e-7;
 // The bound in space is on the decoded float32 positions themselves; this is the rounding of measuring it.
 constexpr double kMeasuringAllowance = 1e-12;
 
-bool is_mixture(const StreamHeader& header) {
-  return header.method == Method::mixture;
-}
-
 nlohmann::json to_json(const ErrorSummary& errors) {
   return {{"count", errors.count},
           {"mean_m", errors.mean_m()},
@@ -55,7 +51,7 @@ void print_error_heading() {
   fmt::print("  {:<34} {:>10} {:>9} {:>9} {:>9}\n", "error in metres", "points", "mean", "rms", "max");
 }
 
-void print_planes(const SweepQuality& quality) {
+void print_uniform_grid(const SweepQuality& quality) {
   fmt::print(
       "  points  {} in, {} out, {} lost to nearer ones in the same cell, {} not finite; order not kept\n\n",
       quality.points_in, quality.points_out, quality.points_lost, quality.non_finite);
@@ -67,7 +63,7 @@ void print_planes(const SweepQuality& quality) {
   print_errors("decoded to the nearest original", quality.nearest_original);
 }
 
-void print_mixture(const Verification& verification) {
+void print_sensor_grid(const Verification& verification) {
   const SweepQuality& quality = verification.quality;
   const std::string order = verification.frames_reordered == 0
                                 ? "order kept"
@@ -92,7 +88,7 @@ void print_mixture(const Verification& verification) {
 
 bool bound_held(const Verification& verification, const StreamHeader& header) {
   const SweepQuality& quality = verification.quality;
-  if (is_mixture(header)) {
+  if (header.on_sensor_grid()) {
     return quality.points_lost == 0 && quality.paired.max_m <= header.bound_m() * (1 + kMeasuringAllowance);
   }
   const double rounding_m = kRoundingAllowance_m + kRelativeRoundingAllowance * quality.farthest_m;
@@ -102,7 +98,7 @@ bool bound_held(const Verification& verification, const StreamHeader& header) {
 void print_json(const Verification& verification, const StreamHeader& header) {
   const SweepQuality& quality = verification.quality;
   const double bpp = geometry_bits_per_point(verification);
-  nlohmann::json json = {{"method", is_mixture(header) ? "mixture" : "planes"},
+  nlohmann::json json = {{"method", header.method == Method::mixture ? "mixture" : "planes"},
                          {"frames", verification.frames},
                          {"frames_missing", verification.frames_missing},
                          {"points_in", quality.points_in},
@@ -120,7 +116,7 @@ void print_json(const Verification& verification, const StreamHeader& header) {
                          {"ratio_xyz32", bpp > 0 ? 96 / bpp : 0},
                          {"encode_ms", to_json(verification.encode_ms)},
                          {"decode_ms", to_json(verification.decode_ms)}};
-  if (is_mixture(header)) {
+  if (header.on_sensor_grid()) {
     json.update({{"pairing", "every finite point with its own decoded point"},
                  {"bound_kind", "space"},
                  {"cross_error", to_json(quality.paired_angular)},
@@ -144,14 +140,14 @@ void print_table(const Verification& verification, const StreamHeader& header, c
   if (verification.field_bytes > 0)
     fmt::print(", {:.3f} with fields", bits_per_point(verification, verification.bytes));
   fmt::print("\n");
-  if (is_mixture(header))
-    print_mixture(verification);
+  if (header.on_sensor_grid())
+    print_sensor_grid(verification);
   else
-    print_planes(verification.quality);
+    print_uniform_grid(verification.quality);
   fmt::print("\n  encode {:.1f} ms, decode {:.1f} ms per sweep (medians)\n",
              quantile(verification.encode_ms, 0.5), quantile(verification.decode_ms, 0.5));
-  fmt::print("  {} bound {:g} m for {}: {}\n", is_mixture(header) ? "error" : "range", header.bound_m(),
-             is_mixture(header) ? "every point" : "kept points",
+  fmt::print("  {} bound {:g} m for {}: {}\n", header.on_sensor_grid() ? "error" : "range", header.bound_m(),
+             header.on_sensor_grid() ? "every point" : "kept points",
              bound_held(verification, header) ? "held" : "BROKEN");
 }
 

@@ -1,0 +1,50 @@
+#include "planes/sensor_rays.h"
+
+#include <cmath>
+
+#include "base/trigonometry.h"
+
+namespace pointreel {
+
+SensorRays::SensorRays(const SensorModel& model, const SweepGrid& grid,
+                       std::span<const std::size_t> shift_of_row)
+    : columns_(static_cast<int>(grid.column_count())) {
+  const std::size_t columns = grid.column_count();
+  cos_.resize(2 * columns);
+  sin_.resize(2 * columns);
+  for (std::size_t c = 0; c < columns; ++c) {
+    const std::uint32_t tick = grid.column_tick[c] % grid.ticks_per_turn;
+    const SinCos azimuth = sin_cos(static_cast<double>(tick) / grid.ticks_per_turn * (2 * kPi));
+    cos_[c] = cos_[c + columns] = static_cast<float>(azimuth.cos);
+    sin_[c] = sin_[c + columns] = static_cast<float>(azimuth.sin);
+  }
+  rows_.reserve(model.row_count());
+  for (std::size_t r = 0; r < model.row_count(); ++r) {
+    const RowModel& row = model.rows[r];
+    const SinCos alpha = sin_cos(row.azimuth_rad);
+    rows_.push_back({row.slope, row.offset_m, row.side_offset_m, alpha.sin, alpha.cos,
+                     std::sqrt(1 + row.slope * row.slope), columns - shift_of_row[r]});
+  }
+}
+
+void SensorRays::plane_ranges_m(const Plane& plane, int row, int first, std::span<float> range_m) const {
+  constexpr float kLeastM = 1e-3F, kMostM = 2e5F;
+  const RowPlane at = row_plane(plane, row);
+  const float* cosine = cos_of_row(row) + first;
+  const float* sine = sin_of_row(row) + first;
+  for (std::size_t c = 0; c < range_m.size(); ++c) {
+    const float rho_m = at.numerator(cosine[c], sine[c]) / at.denominator(cosine[c], sine[c]);
+    const float met_m = rho_m * at.range_per_rho;
+    const float in_front_m = met_m > kLeastM ? met_m : kLeastM;  // NaN, too
+    range_m[c] = in_front_m < kMostM ? in_front_m : kMostM;
+  }
+}
+
+SensorRays::Direction SensorRays::direction(int row, int column) const {
+  const Row& r = this->row(row);
+  const double cosine = cos_of_row(row)[column], sine = sin_of_row(row)[column];
+  return {cosine * r.cos_alpha - sine * r.sin_alpha, sine * r.cos_alpha + cosine * r.sin_alpha, r.slope,
+          r.offset_m};
+}
+
+}  // namespace pointreel
