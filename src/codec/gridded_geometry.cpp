@@ -203,14 +203,14 @@ EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud&
   if (prediction != nullptr) {
     put_relative_pose(image_bytes, prediction->T_ref_cur);
     statistics.grid_bits += bits_of(image_bytes.size());
-    rounded.emplace(prediction->reference, *quantised(prediction->T_ref_cur));
+    rounded.emplace(Prediction{prediction->reference, prediction->planes, *quantised(prediction->T_ref_cur)});
   }
   PlaneSection planes;
   if (plane_stage != PlaneStage::none) {
     const GridImage tolerance =
         coding.image_of(range_tolerances_m(sweep, range_of_cell_m.size(), max_error_m), threads);
-    planes = encode_planes({model, sweep.grid, coding, max_error_m, threads, plane_stage}, image, tolerance,
-                           image_bytes, statistics);
+    planes = encode_planes({model, sweep.grid, coding, max_error_m, threads, plane_stage},
+                           rounded ? &*rounded : nullptr, image, tolerance, image_bytes, statistics);
   }
   auto states = encode_image({model, sweep.grid, quantiser, effort, threads, planes.range_m},
                              rounded ? &*rounded : nullptr, image, image_bytes, statistics);
@@ -274,7 +274,8 @@ EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud&
 }
 
 Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size_t points_out,
-                                       const ReferenceSweep* reference, ByteReader& reader) {
+                                       const ReferenceSweep* reference, const PlaneTiles& reference_planes,
+                                       ByteReader& reader) {
   const auto& [model, max_error_m, effort, threads, plane_stage] = setting;
   const auto grid = decode_sweep_grid(model, get_section(reader));
   if (!grid) return grid.error();
@@ -288,11 +289,12 @@ Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size
   if (reference != nullptr) {
     const auto T_ref_cur = get_relative_pose(reader);
     if (!T_ref_cur) return T_ref_cur.error();
-    prediction.emplace(*reference, *T_ref_cur);
+    prediction.emplace(Prediction{*reference, reference_planes, *T_ref_cur});
   }
   PlaneSection planes;
   if (plane_stage != PlaneStage::none) {
-    auto section = decode_planes({model, *grid, coding, max_error_m, threads, plane_stage}, reader);
+    auto section = decode_planes({model, *grid, coding, max_error_m, threads, plane_stage},
+                                 prediction ? &*prediction : nullptr, reader);
     if (!section) return section.error();
     planes = *std::move(section);
   }

@@ -67,6 +67,7 @@ struct DecodedGeometry {
 // `reference`: nullptr for a frame by itself. Error: truncated or corrupt; also when there are not
 // `points_out` points.
 Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size_t points_out,
-                                       const ReferenceSweep* reference, ByteReader& reader);
+                                       const ReferenceSweep* reference, const PlaneTiles& reference_planes,
+                                       ByteReader& reader);
 
 }  // namespace pointreel

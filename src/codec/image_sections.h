@@ -5,6 +5,7 @@
 #pragma once
 
 #include "base/bytes.h"
+#include "planes/plane_tiles.h"
 #include "pointreel/codec.h"
 #include "predict/grid_image.h"
 #include "predict/range_quantiser.h"
@@ -25,6 +26,7 @@ struct ImageSetting {
 // The earlier sweep that a predicted frame starts from, and the motion since, as the stream has it.
 struct Prediction {
   const ReferenceSweep& reference;
+  const PlaneTiles& planes;  // of the reference; none without method `planes`
   Pose T_ref_cur = Pose::Identity();
 };
 

@@ -75,7 +75,8 @@ class MixtureDecoder final : public Decoder::Implementation {
     auto geometry = coding == SweepCoding::scattered
                         ? decode_scattered_sweep(packet, reader)
                         : decode_gridded(geometry_setting(header_, model_, threads_), packet.points_out,
-                                         coding == SweepCoding::predicted ? &reference : nullptr, reader);
+                                         coding == SweepCoding::predicted ? &reference : nullptr,
+                                         last_image_.planes, reader);
     if (!geometry) return geometry.error();
     const std::size_t field_bytes = ByteReader(reader).rest().size();  // a copy: rest() takes them
     for (const Point3f& position : geometry->positions) {

@@ -82,13 +82,16 @@ class MixtureEncoder final : public Encoder::Implementation {
         writer.put(T_ref_cur ? SweepCoding::predicted : SweepCoding::gridded);
       }
       reference_frame = T_ref_cur ? packet.frame - 1 : *model_frame_;
-      const auto prediction = T_ref_cur ? std::optional(Prediction{reference_, *T_ref_cur}) : std::nullopt;
+      const auto prediction =
+          T_ref_cur ? std::optional(Prediction{reference_, reference_planes_, *T_ref_cur}) : std::nullopt;
       encoded = encode_gridded(geometry_setting(header_, *model_, threads_), cloud, *std::move(gridded),
                                bursts, prediction ? &*prediction : nullptr, writer, packet.statistics);
       ++model_age_;
-      if (temporal_ && !starts_group())
+      if (temporal_ && !starts_group()) {
         reference_ = reference_from(*model_, encoded.image.grid, encoded.image.image.range_m,
                                     std::move(encoded.image.states), threads_);
+        reference_planes_ = std::move(encoded.image.planes);
+      }
     } else {
       encoded = encode_scattered_sweep(cloud, writer, packet.statistics);
       model_frame_.reset();
@@ -174,7 +177,8 @@ class MixtureEncoder final : public Encoder::Implementation {
   bool temporal_;
   SweepAlignment alignment_;
   ReferenceSweep reference_;  // the sweep before, as decoded
-  int model_age_ = 0;         // sweeps coded with it
+  PlaneTiles reference_planes_;
+  int model_age_ = 0;  // sweeps coded with it
   std::uint32_t next_frame_ = 0;
   std::uint32_t next_group_ = 0;
 };

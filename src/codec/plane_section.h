@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/bytes.h"
+#include "codec/image_sections.h"
 #include "planes/plane_tiles.h"
 #include "pointreel/codec.h"
 #include "predict/coding_grid.h"
@@ -34,11 +35,12 @@ struct PlaneSection {
   std::vector<float> range_m;  // by cell of the image: on the planes, 0 elsewhere
 };
 
-// `tolerance_m`: by how much each range may be off.
-PlaneSection encode_planes(const PlaneSetting& setting, const GridImage& image, const GridImage& tolerance_m,
-                           ByteWriter& writer, FrameStatistics& statistics);
+// `prediction`: nullptr for a frame by itself. `tolerance_m`: by how much each range may be off.
+PlaneSection encode_planes(const PlaneSetting& setting, const Prediction* prediction, const GridImage& image,
+                           const GridImage& tolerance_m, ByteWriter& writer, FrameStatistics& statistics);
 
 // Error: truncated.
-Result<PlaneSection> decode_planes(const PlaneSetting& setting, ByteReader& reader);
+Result<PlaneSection> decode_planes(const PlaneSetting& setting, const Prediction* prediction,
+                                   ByteReader& reader);
 
 }  // namespace pointreel

@@ -48,12 +48,13 @@ double bits_per_point(const Evidence& evidence, double range_step_m) {
 }  // namespace
 
 void drop_dear_planes(std::span<const float> range_m, double range_step_m, PlaneTiles& planes) {
-  constexpr double kBitsPerPlane = 28;  // with those of its tiles' labels
+  constexpr double kBitsPerPlane = 24, kBitsPerReuse = 8;  // with those of their tiles' labels
   const auto evidence = gather(range_m, planes);
   std::vector<std::int32_t> now(planes.planes.size(), -1);
   std::vector<TilePlane> kept;
   for (std::size_t i = 0; i < evidence.size(); ++i) {
-    if (evidence[i].points * bits_per_point(evidence[i], range_step_m) < kBitsPerPlane) continue;
+    const double cost = planes.planes[i].reused ? kBitsPerReuse : kBitsPerPlane;
+    if (evidence[i].points * bits_per_point(evidence[i], range_step_m) < cost) continue;
     now[i] = static_cast<std::int32_t>(kept.size());
     kept.push_back(planes.planes[i]);
   }

@@ -28,16 +28,30 @@ Plane plane_from_levels(const PlaneFrame& frame, const PlaneLevels& levels, doub
   return {ahead * cosine - across * sine, ahead * sine + across * cosine, up};
 }
 
-std::optional<PlaneLevels> levels_of_plane(const PlaneFrame& frame, const Plane& plane, double step_m) {
+std::optional<std::int32_t> distance_level(const PlaneFrame& frame, const Plane& plane, double step_m) {
   constexpr double kFarthestM = 1000;
   const auto& [cosine, sine, slope, offset_m] = frame.at;
-  const double ahead = plane.x * cosine + plane.y * sine;
-  const double rho_m = (1 - plane.z * offset_m) / (ahead + plane.z * slope);
+  const double rho_m = (1 - plane.z * offset_m) / ((plane.x * cosine + plane.y * sine) + plane.z * slope);
   if (!(rho_m > step_m && rho_m < kFarthestM)) return std::nullopt;
-  const std::int32_t level = std::clamp(rounded(rho_m / step_m), 1, kMostPlaneLevel);
-  const double coarse_m = level * step_m;
+  return std::clamp(rounded(rho_m / step_m), 1, kMostPlaneLevel);
+}
+
+Plane plane_at_distance(const PlaneFrame& frame, const Plane& plane, std::int32_t level, double step_m) {
+  const auto& [cosine, sine, slope, offset_m] = frame.at;
+  const double rho_m = level * step_m;
+  const double scale =
+      1 / (rho_m * ((plane.x * cosine + plane.y * sine) + plane.z * slope) + plane.z * offset_m);
+  return {plane.x * scale, plane.y * scale, plane.z * scale};
+}
+
+std::optional<PlaneLevels> levels_of_plane(const PlaneFrame& frame, const Plane& plane, double step_m) {
+  const auto level = distance_level(frame, plane, step_m);
+  if (!level) return std::nullopt;
+  const double cosine = frame.at.cos, sine = frame.at.sin;
+  const double coarse_m = *level * step_m;
   return PlaneLevels{
-      level, rounded((plane.y * cosine - plane.x * sine) / tilt_step(coarse_m, step_m, frame.half_width_rad)),
+      *level,
+      rounded((plane.y * cosine - plane.x * sine) / tilt_step(coarse_m, step_m, frame.half_width_rad)),
       rounded(plane.z / tilt_step(coarse_m, step_m, frame.half_height))};
 }
 

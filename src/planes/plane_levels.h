@@ -29,4 +29,9 @@ Plane plane_from_levels(const PlaneFrame& frame, const PlaneLevels& levels, doub
 // The nearest levels; none where the plane is not met in the frame's direction.
 std::optional<PlaneLevels> levels_of_plane(const PlaneFrame& frame, const Plane& plane, double step_m);
 
+// A plane's normal at another distance in the frame's direction; none where it is not met there. The levels
+// but the first are 0.
+std::optional<std::int32_t> distance_level(const PlaneFrame& frame, const Plane& plane, double step_m);
+Plane plane_at_distance(const PlaneFrame& frame, const Plane& plane, std::int32_t level, double step_m);
+
 }  // namespace pointreel

@@ -24,7 +24,7 @@ class Search {
         std::int32_t& plane = planes_.plane_of_tile[tiles().index(tile_row, tile)];
         plane = known_plane(tile_row, tile);
         if (plane >= 0 || !samples_.has_returns(tile_row, tile)) continue;
-        if (const auto found = new_plane(tile_row, tile)) {
+        if (const auto found = plane_for(tile_row, tile)) {
           plane = static_cast<std::int32_t>(planes_.planes.size());
           planes_.planes.push_back(*found);
         }
@@ -46,6 +46,40 @@ class Search {
       if (plane >= 0 && holds(plane)) return plane;
     }
     return -1;
+  }
+
+  // The plane of an earlier sweep at a new distance, if that holds half of the tiles that the plane through
+  // the tile would hold, or more; else the latter.
+  std::optional<TilePlane> plane_for(int tile_row, int tile) const {
+    const auto own = new_plane(tile_row, tile);
+    const Plane* earlier = task_.earlier.at(tiles(), tile_row, tile);
+    if (earlier == nullptr) return own;
+    const auto reused = at_best_distance(*earlier, tile_row, tile);
+    if (!reused || !own) return reused ? reused : own;
+    return 2 * run_held(*reused, tile_row, tile) >= run_held(*own, tile_row, tile) ? reused : own;
+  }
+  int run_held(const TilePlane& plane, int tile_row, int tile) const {
+    const PlaneTest test(samples_, plane.plane, tile_row);
+    int held = 0;
+    while (tile + held < tiles().across && test.holds(tile + held)) ++held;
+    return held;
+  }
+  std::optional<TilePlane> at_best_distance(const Plane& earlier, int tile_row, int tile) const {
+    const PlaneFrame frame = frame_of_tile(task_.rays, tiles(), tile_row, tile, 0, 0);
+    const auto level = distance_level(frame, earlier, task_.step_m);
+    if (!level) return std::nullopt;
+    constexpr std::int32_t kMostShift = 8;  // what errors of the motion explain
+    for (std::int32_t shift = 0; shift <= kMostShift; ++shift) {
+      for (const std::int32_t shifted : {*level + shift, *level - shift}) {
+        if (shifted < 1) continue;
+        TilePlane plane;
+        plane.reused = true;
+        plane.levels = {shifted, 0, 0};
+        plane.plane = plane_at_distance(frame, earlier, shifted, task_.step_m);
+        if (PlaneTest(samples_, plane.plane, tile_row).holds(tile)) return plane;
+      }
+    }
+    return std::nullopt;
   }
 
   // The plane through a tile and what goes on from it, to the right and downwards.

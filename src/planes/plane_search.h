@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "planes/moved_planes.h"
 #include "planes/plane_tiles.h"
 
 namespace pointreel {
@@ -13,6 +14,7 @@ struct PlaneTask {
   std::span<const float> range_m;      // 0: no return, any plane will do
   std::span<const float> tolerance_m;  // of the range
   double step_m;                       // of the planes (PlaneLevels)
+  const MovedPlanes& earlier;          // of an earlier sweep
 };
 
 // Every cell of a tile that is given a plane meets that plane, as decoded, within its tolerance but for the

@@ -38,6 +38,8 @@ struct TileGrid {
 
 // A plane on the grid: described at the tile where it comes first, in raster order.
 struct TilePlane {
+  // Normal from the plane of an earlier sweep: then only levels[0] counts.
+  bool reused = false;
   std::uint8_t width = 0, height = 0;  // its half extents are 2^width half tiles wide, 2^height high
   PlaneLevels levels{};
   Plane plane;  // as decoded

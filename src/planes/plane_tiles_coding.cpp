@@ -29,8 +29,8 @@ class AdaptiveClass {
 template <class Coder>
 class PlaneTilesCoder {
  public:
-  PlaneTilesCoder(Coder& coder, const SensorRays& rays, double step_m)
-      : coder_(coder), rays_(rays), step_m_(step_m) {}
+  PlaneTilesCoder(Coder& coder, const SensorRays& rays, double step_m, const MovedPlanes& earlier)
+      : coder_(coder), rays_(rays), step_m_(step_m), earlier_(earlier) {}
 
   // False when a decoder runs out of bytes.
   bool code(PlaneTiles& planes) {
@@ -73,6 +73,7 @@ class PlaneTilesCoder {
 
   void code_plane(const NeighbourPlanes& around, const PlaneTiles& planes, int tile_row, int tile,
                   TilePlane& plane) {
+    if (code_reused(planes, tile_row, tile, plane)) return;
     plane.width = static_cast<std::uint8_t>(width_.code(coder_, plane.width));
     plane.height = static_cast<std::uint8_t>(height_.code(coder_, plane.height));
     const PlaneFrame frame = frame_of_tile(rays_, planes.tiles, tile_row, tile, plane.width, plane.height);
@@ -86,6 +87,21 @@ class PlaneTilesCoder {
     }
     last_rho_m_ = plane.levels[0] * step_m_;
     plane.plane = plane_from_levels(frame, plane.levels, step_m_);
+  }
+
+  // An earlier sweep's plane at a new distance.
+  bool code_reused(const PlaneTiles& planes, int tile_row, int tile, TilePlane& plane) {
+    const Plane* earlier = earlier_.at(planes.tiles, tile_row, tile);
+    if (earlier == nullptr) return false;
+    const PlaneFrame frame = frame_of_tile(rays_, planes.tiles, tile_row, tile, 0, 0);
+    const auto level = distance_level(frame, *earlier, step_m_);
+    if (!level || !coder_.code(reused_, plane.reused)) return false;
+    plane.reused = true;
+    const std::int64_t shifted = std::int64_t{*level} + shift_.code(coder_, plane.levels[0] - *level);
+    plane.levels = {static_cast<std::int32_t>(std::clamp<std::int64_t>(shifted, 1, kMostPlaneLevel)), 0, 0};
+    plane.plane = plane_at_distance(frame, *earlier, plane.levels[0], step_m_);
+    last_rho_m_ = plane.levels[0] * step_m_;
+    return true;
   }
 
   struct PredictedLevels {
@@ -110,9 +126,12 @@ class PlaneTilesCoder {
   Coder& coder_;
   const SensorRays& rays_;
   double step_m_;
+  const MovedPlanes& earlier_;
   double last_rho_m_ = 10;
   std::array<AdaptiveBit, 128> on_plane_;
   std::array<std::array<AdaptiveBit, 128>, 3> goes_on_;  // by which neighbour's plane
+  AdaptiveBit reused_;
+  AdaptiveInteger shift_;
   AdaptiveClass width_, height_;
   std::array<std::array<AdaptiveInteger, 3>, 4> level_;  // by what predicts them
 };
@@ -120,20 +139,20 @@ class PlaneTilesCoder {
 }  // namespace
 
 std::vector<std::uint8_t> encode_plane_tiles(const SensorRays& rays, double step_m,
-                                             const PlaneTiles& planes) {
+                                             const MovedPlanes& earlier, const PlaneTiles& planes) {
   BitEncoder coder;
   PlaneTiles coded = planes;
-  PlaneTilesCoder<BitEncoder>(coder, rays, step_m).code(coded);
+  PlaneTilesCoder<BitEncoder>(coder, rays, step_m, earlier).code(coded);
   return coder.finish();
 }
 
-Result<PlaneTiles> decode_plane_tiles(const SensorRays& rays, double step_m,
+Result<PlaneTiles> decode_plane_tiles(const SensorRays& rays, double step_m, const MovedPlanes& earlier,
                                       std::span<const std::uint8_t> bytes) {
   PlaneTiles planes;
   planes.tiles = TileGrid(rays.rows(), rays.columns());
   planes.plane_of_tile.assign(planes.tiles.count(), -1);
   BitDecoder coder(bytes);
-  if (!PlaneTilesCoder<BitDecoder>(coder, rays, step_m).code(planes))
+  if (!PlaneTilesCoder<BitDecoder>(coder, rays, step_m, earlier).code(planes))
     return Error{ErrorCode::truncated, "it ends within its planes"};
   return planes;
 }

@@ -10,6 +10,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,6 +32,7 @@ class SensorRays {
   struct Row {
     double slope, offset_m, side_offset_m, sin_alpha, cos_alpha, range_per_rho;
     std::size_t first;  // grid column of image column 0
+    double azimuth_turns;
   };
   const Row& row(int row) const { return rows_[static_cast<std::size_t>(row)]; }
   // Of the column azimuths, by image column; those of a whole row lie side by side.
@@ -66,8 +69,17 @@ class SensorRays {
   };
   Direction direction(int row, int column) const;
 
+  // The cell whose ray passes nearest to a point, give or take one; `from_row`: where to begin. None near the
+  // axis, far beyond the outermost rows, or out of reach. The same on every machine.
+  struct Cell {
+    int row, column;
+  };
+  std::optional<Cell> cell_towards(double x_m, double y_m, double z_m, int from_row) const;
+
  private:
   int columns_;
+  std::uint32_t ticks_per_turn_;
+  std::vector<std::uint32_t> column_tick_;
   std::vector<Row> rows_;
   std::vector<float> cos_, sin_;  // of the column azimuths, twice around
 };
