@@ -38,6 +38,18 @@ MovedPlanes::MovedPlanes(const SensorRays& reference_rays, const PlaneTiles& ref
       plane_of_tile[index] = plane;
     }
   }
+  // Surfaces go on between.
+  const std::vector<std::int32_t> seen = plane_of_tile;
+  for (int tile_row = 0; tile_row < tiles.down; ++tile_row) {
+    for (int tile = 0; tile < tiles.across; ++tile) {
+      std::int32_t& plane = plane_of_tile[tiles.index(tile_row, tile)];
+      if (plane >= 0) continue;
+      if (tile > 0) plane = seen[tiles.index(tile_row, tile - 1)];
+      if (plane < 0 && tile + 1 < tiles.across) plane = seen[tiles.index(tile_row, tile + 1)];
+      if (plane < 0 && tile_row > 0) plane = seen[tiles.index(tile_row - 1, tile)];
+      if (plane < 0 && tile_row + 1 < tiles.down) plane = seen[tiles.index(tile_row + 1, tile)];
+    }
+  }
 }
 
 }  // namespace pointreel
