@@ -50,7 +50,7 @@ class Search {
 
   // The plane of an earlier sweep at a new distance, if that holds half of the tiles that the plane through
   // the tile would hold, or more; else the latter.
-  std::optional<TilePlane> plane_for(int tile_row, int tile) const {
+  std::optional<TilePlane> plane_for(int tile_row, int tile) {
     const auto own = new_plane(tile_row, tile);
     const Plane* earlier = task_.earlier.at(tiles(), tile_row, tile);
     if (earlier == nullptr) return own;
@@ -83,7 +83,7 @@ class Search {
   }
 
   // The plane through a tile and what goes on from it, to the right and downwards.
-  std::optional<TilePlane> new_plane(int tile_row, int tile) const {
+  std::optional<TilePlane> new_plane(int tile_row, int tile) {
     PlaneMoments sums = samples_.moments(tile_row, tile);
     const Plane own = sums.fit();
     if (!PlaneTest(samples_, own, tile_row).holds(tile)) return std::nullopt;
@@ -98,7 +98,7 @@ class Search {
   }
 
   // Keeps the plane while it holds the next tile, and fits it anew over all of them when it does not.
-  void grow_right(int tile_row, int first, int& end, PlaneMoments& sums, Plane& plane) const {
+  void grow_right(int tile_row, int first, int& end, PlaneMoments& sums, Plane& plane) {
     PlaneTest test(samples_, plane, tile_row);
     for (; end < tiles().across; ++end) {
       PlaneMoments grown = sums;
@@ -117,7 +117,7 @@ class Search {
   }
 
   // Rows of tiles, the first included, most of which the plane holds; it is fitted over those, too.
-  int grow_down(int tile_row, int first, int end, PlaneMoments& sums, Plane& plane) const {
+  int grow_down(int tile_row, int first, int end, PlaneMoments& sums, Plane& plane) {
     constexpr int kMostHeight = 8;
     int height = 1;
     for (; height < kMostHeight && tile_row + height < tiles().down; ++height) {

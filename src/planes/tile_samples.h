@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/raw_vector.h"
 #include "planes/plane_search.h"
 
 namespace pointreel {
@@ -14,9 +15,9 @@ class TileSamples {
   explicit TileSamples(const PlaneTask& task);
 
   const TileGrid& tiles() const { return tiles_; }
-  bool has_returns(int tile_row, int tile) const { return returns_[tiles_.index(tile_row, tile)] > 0; }
-  int returns(std::size_t tile) const { return returns_[tile]; }
-  const PlaneMoments& moments(int tile_row, int tile) const { return moments_[tiles_.index(tile_row, tile)]; }
+  bool has_returns(int tile_row, int tile) const;
+  // Of the returns of a tile, summed when first asked for.
+  const PlaneMoments& moments(int tile_row, int tile);
 
   // A plane as the rows of one row of tiles see it.
   class PlaneTest {
@@ -63,17 +64,16 @@ class TileSamples {
   std::size_t first_cell(int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(tiles_.across * kTileColumns);
   }
-  static Eigen::Map<const Row> row_of(const std::vector<float>& values, std::size_t cell) {
+  static Eigen::Map<const Row> row_of(const RawVector<float>& values, std::size_t cell) {
     return Eigen::Map<const Row>(&values[cell]);
   }
-  void sum_moments(int row);
 
   const SensorRays& rays_;
   TileGrid tiles_;
-  std::vector<float> rho_m_, tolerance_m_;  // horizontal; tolerance without a return: any
-  std::vector<float> cos_, sin_;            // of the column azimuths
-  std::vector<PlaneMoments> moments_;
-  std::vector<std::uint8_t> returns_;
+  RawVector<float> rho_m_, tolerance_m_;  // horizontal; tolerance without a return: any
+  RawVector<float> cos_, sin_;            // of the column azimuths
+  std::vector<std::uint8_t> has_moments_;
+  RawVector<PlaneMoments> moments_;
 };
 
 }  // namespace pointreel
