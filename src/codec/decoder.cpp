@@ -1,3 +1,5 @@
+#include <string>
+
 #include "codec/method.h"
 #include "pointreel/codec.h"
 
@@ -18,6 +20,20 @@ Result<Decoder> Decoder::create(const StreamHeader& header, const Runtime& runti
 
 std::vector<Result<DecodedSweep>> Decoder::decode(std::span<const Packet> packets) {
   return implementation_->decode(packets);
+}
+
+std::vector<Result<SweepPlanes>> Decoder::decode_planes(std::span<const Packet> packets) {
+  std::vector<Result<SweepPlanes>> sweeps;
+  sweeps.reserve(packets.size());
+  for (const Packet& packet : packets) {
+    auto planes = implementation_->decode_planes(packet);
+    if (!planes) {
+      planes =
+          Error{planes.error().code, "frame " + std::to_string(packet.frame) + ": " + planes.error().message};
+    }
+    sweeps.push_back(std::move(planes));
+  }
+  return sweeps;
 }
 
 Result<std::vector<std::int64_t>> pair_points(const StreamHeader& header, const PointCloud& original,

@@ -171,7 +171,49 @@ Result<RangeQuantiser> get_quantiser(ByteReader& reader, const SensorModel& mode
   return quantiser;
 }
 
+// What comes before planes and ranges.
+struct Head {
+  SweepGrid grid;
+  RangeQuantiser quantiser;
+  std::optional<Pose> T_ref_cur;  // of predicted frames
+};
+
+Result<Head> decode_head(const SensorModel& model, bool predicted, ByteReader& reader) {
+  auto grid = decode_sweep_grid(model, get_section(reader));
+  if (!grid) return grid.error();
+  auto quantiser = get_quantiser(reader, model);
+  if (!quantiser) return quantiser.error();
+  if (grid->column_count() == 0) return Error{ErrorCode::corrupt, "its grid has no columns"};
+  Head head{*std::move(grid), *std::move(quantiser), std::nullopt};
+  if (predicted) {
+    const auto T_ref_cur = get_relative_pose(reader);
+    if (!T_ref_cur) return T_ref_cur.error();
+    head.T_ref_cur = *T_ref_cur;
+  }
+  return head;
+}
+
+std::optional<EarlierPlanes> earlier_planes(const std::optional<Prediction>& prediction) {
+  if (!prediction) return std::nullopt;
+  return EarlierPlanes{prediction->reference.grid, prediction->planes, prediction->T_ref_cur};
+}
+
 }  // namespace
+
+Result<GriddedPlanes> decode_gridded_planes(const GeometrySetting& setting, const GriddedPlanes* reference,
+                                            ByteReader& reader) {
+  const auto& [model, max_error_m, effort, threads, plane_stage] = setting;
+  auto head = decode_head(model, reference != nullptr, reader);
+  if (!head) return head.error();
+  const CodingGrid coding(model, head->grid);
+  std::optional<EarlierPlanes> earlier;
+  if (reference != nullptr)
+    earlier.emplace(EarlierPlanes{reference->grid, reference->tiles, *head->T_ref_cur});
+  auto tiles = decode_planes({model, head->grid, coding, max_error_m, threads, plane_stage},
+                             rays_of(model, head->grid, coding), earlier ? &*earlier : nullptr, reader);
+  if (!tiles) return tiles.error();
+  return GriddedPlanes{std::move(head->grid), *std::move(tiles)};
+}
 
 GeometrySetting geometry_setting(const StreamHeader& header, const SensorModel& model, int threads) {
   const PlaneStage planes = header.method != Method::planes ? PlaneStage::none
@@ -207,10 +249,11 @@ EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud&
   }
   PlaneSection planes;
   if (plane_stage != PlaneStage::none) {
+    const auto earlier = earlier_planes(rounded);
     const GridImage tolerance =
         coding.image_of(range_tolerances_m(sweep, range_of_cell_m.size(), max_error_m), threads);
     planes = encode_planes({model, sweep.grid, coding, max_error_m, threads, plane_stage},
-                           rounded ? &*rounded : nullptr, image, tolerance, image_bytes, statistics);
+                           earlier ? &*earlier : nullptr, image, tolerance, image_bytes, statistics);
   }
   auto states = encode_image({model, sweep.grid, quantiser, effort, threads, planes.range_m},
                              rounded ? &*rounded : nullptr, image, image_bytes, statistics);
@@ -277,28 +320,24 @@ Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size
                                        const ReferenceSweep* reference, const PlaneTiles& reference_planes,
                                        ByteReader& reader) {
   const auto& [model, max_error_m, effort, threads, plane_stage] = setting;
-  const auto grid = decode_sweep_grid(model, get_section(reader));
-  if (!grid) return grid.error();
-  const auto quantiser = get_quantiser(reader, model);
-  if (!quantiser) return quantiser.error();
-
-  if (grid->column_count() == 0) return Error{ErrorCode::corrupt, "its grid has no columns"};
+  const auto head = decode_head(model, reference != nullptr, reader);
+  if (!head) return head.error();
+  const SweepGrid* grid = &head->grid;
   const CodingGrid coding(model, *grid);
-  GridImage image = coding.empty_image();
   std::optional<Prediction> prediction;
-  if (reference != nullptr) {
-    const auto T_ref_cur = get_relative_pose(reader);
-    if (!T_ref_cur) return T_ref_cur.error();
-    prediction.emplace(Prediction{*reference, reference_planes, *T_ref_cur});
-  }
+  if (reference != nullptr) prediction.emplace(Prediction{*reference, reference_planes, *head->T_ref_cur});
   PlaneSection planes;
   if (plane_stage != PlaneStage::none) {
-    auto section = decode_planes({model, *grid, coding, max_error_m, threads, plane_stage},
-                                 prediction ? &*prediction : nullptr, reader);
-    if (!section) return section.error();
-    planes = *std::move(section);
+    const SensorRays rays = rays_of(model, *grid, coding);
+    const auto earlier = earlier_planes(prediction);
+    auto tiles = decode_planes({model, *grid, coding, max_error_m, threads, plane_stage}, rays,
+                               earlier ? &*earlier : nullptr, reader);
+    if (!tiles) return tiles.error();
+    planes.tiles = *std::move(tiles);
+    planes.range_m = ranges_on_planes_m(rays, planes.tiles, threads);
   }
-  auto states = decode_image({model, *grid, *quantiser, effort, threads, planes.range_m},
+  GridImage image = coding.empty_image();
+  auto states = decode_image({model, *grid, head->quantiser, effort, threads, planes.range_m},
                              prediction ? &*prediction : nullptr, reader, image);
   if (!states) return states.error();
 

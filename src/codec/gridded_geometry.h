@@ -70,4 +70,14 @@ Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size
                                        const ReferenceSweep* reference, const PlaneTiles& reference_planes,
                                        ByteReader& reader);
 
+// The planes of a sweep and the grid that they are on.
+struct GriddedPlanes {
+  SweepGrid grid;
+  PlaneTiles tiles;
+};
+
+// Leaves the ranges where they are. Only for a setting with planes. Error: truncated or corrupt.
+Result<GriddedPlanes> decode_gridded_planes(const GeometrySetting& setting, const GriddedPlanes* reference,
+                                            ByteReader& reader);
+
 }  // namespace pointreel

@@ -22,6 +22,9 @@ class Decoder::Implementation {
  public:
   virtual ~Implementation() = default;
   virtual std::vector<Result<DecodedSweep>> decode(std::span<const Packet> packets) = 0;
+  virtual Result<SweepPlanes> decode_planes(const Packet& /*packet*/) {
+    return Error{ErrorCode::unsupported, "only method planes on the sensor's grid hands out planes"};
+  }
 };
 
 // codec/mixture_encoder.cpp, codec/mixture_decoder.cpp: both methods on the sensor's grid

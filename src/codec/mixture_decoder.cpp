@@ -10,6 +10,7 @@
 #include "codec/mixture_payload.h"
 #include "codec/point_matching.h"
 #include "codec/sections.h"
+#include "codec/sweep_planes.h"
 #include "codec/wire.h"
 #include "scatter/scattered_points.h"
 #include "sensor/burst_sort.h"
@@ -36,12 +37,28 @@ class MixtureDecoder final : public Decoder::Implementation {
     return sweeps;
   }
 
+  Result<SweepPlanes> decode_planes(const Packet& packet) override {
+    if (header_.method != Method::planes) return Decoder::Implementation::decode_planes(packet);
+    ByteReader reader(packet.payload);
+    const auto coding = begin(packet, planes_frame_, reader);
+    if (!coding) return coding.error();
+    if (*coding == SweepCoding::scattered) return SweepPlanes{packet.frame, {}, {}};
+    auto planes = decode_gridded_planes(geometry_setting(header_, model_, threads_),
+                                        *coding == SweepCoding::predicted ? &last_planes_ : nullptr, reader);
+    if (!planes) return planes.error();
+    last_planes_ = *std::move(planes);
+    planes_frame_ = packet.frame;
+    const CodingGrid coding_grid(model_, last_planes_.grid);
+    return sweep_planes_of(packet.frame, rays_of(model_, last_planes_.grid, coding_grid), last_planes_.tiles);
+  }
+
  private:
-  Result<DecodedSweep> decode(const Packet& packet) {
+  // How the packet is coded, once its model is known. `reference_frame`: whose ranges, or planes, are known.
+  Result<SweepCoding> begin(const Packet& packet, std::optional<std::uint32_t>& reference_frame,
+                            ByteReader& reader) {
     if (packet.points_out > kMaxPointsPerSweep) {
       return Error{ErrorCode::resource_limit, "it claims " + std::to_string(packet.points_out) + " points"};
     }
-    ByteReader reader(packet.payload);
     const auto coding = reader.get<SweepCoding>();
     if (!reader.ok()) return Error{ErrorCode::truncated, "its payload is empty"};
     if (coding > SweepCoding::predicted)
@@ -53,6 +70,7 @@ class MixtureDecoder final : public Decoder::Implementation {
     if (packet.kind == FrameKind::key) {
       model_frame_.reset();
       reference_frame_.reset();
+      planes_frame_.reset();
     }
     if (coding == SweepCoding::gridded_model) {
       auto model = decode_sensor_model(get_section(reader));
@@ -60,13 +78,20 @@ class MixtureDecoder final : public Decoder::Implementation {
       model_ = *std::move(model);
       model_frame_ = packet.frame;
     } else if (needs_frame &&
-               (coding == SweepCoding::gridded ? model_frame_ : reference_frame_) != packet.reference_frame) {
+               (coding == SweepCoding::gridded ? model_frame_ : reference_frame) != packet.reference_frame) {
       return Error{ErrorCode::corrupt, "its reference frame " + std::to_string(packet.reference_frame) +
                                            " was not decoded before it"};
     }
-
     if (coding == SweepCoding::predicted && header_.effort == Effort::fast)
       return Error{ErrorCode::corrupt, "effort fast predicts no sweep from another"};
+    return coding;
+  }
+
+  Result<DecodedSweep> decode(const Packet& packet) {
+    ByteReader reader(packet.payload);
+    const auto begun = begin(packet, reference_frame_, reader);
+    if (!begun) return begun.error();
+    const SweepCoding coding = *begun;
     ReferenceSweep reference;
     if (coding == SweepCoding::predicted)
       reference =
@@ -88,6 +113,10 @@ class MixtureDecoder final : public Decoder::Implementation {
     if (!geometry->image.image.range_m.empty()) {
       last_image_ = std::move(geometry->image);
       reference_frame_ = packet.frame;
+      if (header_.method == Method::planes) {
+        last_planes_ = {last_image_.grid, last_image_.planes};
+        planes_frame_ = packet.frame;
+      }
     }
     DecodedSweep sweep;
     sweep.frame = packet.frame;
@@ -120,6 +149,8 @@ class MixtureDecoder final : public Decoder::Implementation {
   std::optional<std::uint32_t> model_frame_;  // the frame that brought it
   CodedImage last_image_;                     // of the last sweep on the grid
   std::optional<std::uint32_t> reference_frame_;
+  GriddedPlanes last_planes_;  // of the last sweep on the grid, if only those were decoded
+  std::optional<std::uint32_t> planes_frame_;
 };
 
 }  // namespace

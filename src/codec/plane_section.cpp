@@ -8,18 +8,11 @@
 namespace pointreel {
 namespace {
 
-SensorRays rays_of(const SensorModel& model, const SweepGrid& grid, const CodingGrid& coding) {
-  std::vector<std::size_t> shifts;
-  for (std::size_t row = 0; row < coding.rows(); ++row) shifts.push_back(coding.shift(row));
-  return SensorRays(model, grid, shifts);
-}
-
-MovedPlanes earlier_planes(const PlaneSetting& setting, const SensorRays& rays,
-                           const Prediction* prediction) {
-  if (prediction == nullptr || prediction->planes.planes.empty()) return {};
-  const SweepGrid& grid = prediction->reference.grid;
-  const SensorRays reference_rays = rays_of(setting.model, grid, CodingGrid(setting.model, grid));
-  return MovedPlanes(reference_rays, prediction->planes, prediction->T_ref_cur, rays,
+MovedPlanes moved(const PlaneSetting& setting, const SensorRays& rays, const EarlierPlanes* earlier) {
+  if (earlier == nullptr || earlier->tiles.planes.empty()) return {};
+  const SensorRays earlier_rays =
+      rays_of(setting.model, earlier->grid, CodingGrid(setting.model, earlier->grid));
+  return MovedPlanes(earlier_rays, earlier->tiles, earlier->T_ref_cur, rays,
                      TileGrid(rays.rows(), rays.columns()));
 }
 
@@ -43,15 +36,22 @@ void count_cells(const GridImage& image, const PlaneTiles& planes, FrameStatisti
 
 }  // namespace
 
-PlaneSection encode_planes(const PlaneSetting& setting, const Prediction* prediction, const GridImage& image,
+SensorRays rays_of(const SensorModel& model, const SweepGrid& grid, const CodingGrid& coding) {
+  std::vector<std::size_t> shifts;
+  for (std::size_t row = 0; row < coding.rows(); ++row) shifts.push_back(coding.shift(row));
+  return SensorRays(model, grid, shifts);
+}
+
+PlaneSection encode_planes(const PlaneSetting& setting, const EarlierPlanes* earlier, const GridImage& image,
                            const GridImage& tolerance_m, ByteWriter& writer, FrameStatistics& statistics) {
   const SensorRays rays = rays_of(setting.model, setting.grid, setting.coding);
-  const MovedPlanes earlier = earlier_planes(setting, rays, prediction);
+  const MovedPlanes moved_planes = moved(setting, rays, earlier);
   PlaneSection section;
-  section.tiles = find_planes({rays, image.range_m, tolerance_m.range_m, plane_step_m(setting), earlier});
+  section.tiles =
+      find_planes({rays, image.range_m, tolerance_m.range_m, plane_step_m(setting), moved_planes});
   if (setting.stage == PlaneStage::where_it_pays)
     drop_dear_planes(image.range_m, 2 * setting.max_error_m, section.tiles);
-  const auto bytes = encode_plane_tiles(rays, plane_step_m(setting), earlier, section.tiles);
+  const auto bytes = encode_plane_tiles(rays, plane_step_m(setting), moved_planes, section.tiles);
   put_section(writer, bytes);
   section.range_m = ranges_on_planes_m(rays, section.tiles, setting.threads);
   statistics.plane_bits += bits_of(bytes.size());
@@ -60,15 +60,11 @@ PlaneSection encode_planes(const PlaneSetting& setting, const Prediction* predic
   return section;
 }
 
-Result<PlaneSection> decode_planes(const PlaneSetting& setting, const Prediction* prediction,
-                                   ByteReader& reader) {
-  const SensorRays rays = rays_of(setting.model, setting.grid, setting.coding);
-  const MovedPlanes earlier = earlier_planes(setting, rays, prediction);
-  auto tiles = decode_plane_tiles(rays, plane_step_m(setting), earlier, get_section(reader));
-  if (!tiles) return tiles.error();
-  PlaneSection section{*std::move(tiles), {}};
-  section.range_m = ranges_on_planes_m(rays, section.tiles, setting.threads);
-  return section;
+Result<PlaneTiles> decode_planes(const PlaneSetting& setting, const SensorRays& rays,
+                                 const EarlierPlanes* earlier, ByteReader& reader) {
+  const auto bytes = get_section(reader);
+  if (!reader.ok()) return Error{ErrorCode::truncated, "it ends within its planes"};
+  return decode_plane_tiles(rays, plane_step_m(setting), moved(setting, rays, earlier), bytes);
 }
 
 }  // namespace pointreel

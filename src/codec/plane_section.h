@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "base/bytes.h"
-#include "codec/image_sections.h"
 #include "planes/plane_tiles.h"
 #include "pointreel/codec.h"
+#include "pointreel/motion.h"
 #include "predict/coding_grid.h"
 #include "sensor/sensor_model.h"
 #include "sensor/sweep_grid.h"
@@ -35,12 +35,21 @@ struct PlaneSection {
   std::vector<float> range_m;  // by cell of the image: on the planes, 0 elsewhere
 };
 
-// `prediction`: nullptr for a frame by itself. `tolerance_m`: by how much each range may be off.
-PlaneSection encode_planes(const PlaneSetting& setting, const Prediction* prediction, const GridImage& image,
+// The planes that a predicted frame may use again, and the motion since.
+struct EarlierPlanes {
+  const SweepGrid& grid;
+  const PlaneTiles& tiles;
+  Pose T_ref_cur;
+};
+
+SensorRays rays_of(const SensorModel& model, const SweepGrid& grid, const CodingGrid& coding);
+
+// `earlier`: nullptr for a frame by itself. `tolerance_m`: by how much each range may be off.
+PlaneSection encode_planes(const PlaneSetting& setting, const EarlierPlanes* earlier, const GridImage& image,
                            const GridImage& tolerance_m, ByteWriter& writer, FrameStatistics& statistics);
 
-// Error: truncated.
-Result<PlaneSection> decode_planes(const PlaneSetting& setting, const Prediction* prediction,
-                                   ByteReader& reader);
+// Without the ranges. Error: truncated.
+Result<PlaneTiles> decode_planes(const PlaneSetting& setting, const SensorRays& rays,
+                                 const EarlierPlanes* earlier, ByteReader& reader);
 
 }  // namespace pointreel

@@ -1,232 +1,29 @@
 #include "motion/registration.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <span>
-
+#include "motion/patch_alignment.h"
 #include "motion/surface_patches.h"
 
 namespace pointreel {
 namespace {
 
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
+// The returns of a sweep.
+struct GridReference {
+  GridRays rays;
 
-constexpr float kInlierM = 0.1F;
-constexpr double kLeastInlierShare = 0.5;
-constexpr int kLeastInliers = 100;
-constexpr double kLeverArmM = 10;  // makes angles comparable with lengths
-// Of the weights' sum. Where the patches leave a direction open, the pose stays as it is.
-constexpr double kDamping = 1e-3;
-constexpr double kStillM = 1e-3;  // a step that moves nothing by more ends the rounds
-
-// What the patches say about a pose: how badly it fits, and the normal equations of a step T <- exp(v, w) T.
-struct Evidence {
-  Matrix6 hessian = Matrix6::Zero();
-  Vector6 gradient = Vector6::Zero();
-  double weight = 0;
-  int inliers = 0;
-  double inlier_squares_m2 = 0;
+  std::optional<Eigen::Vector3f> partner_m(const Eigen::Vector3f& p_m, const Eigen::Vector3f&) const {
+    const GridRays::Cell cell = rays.return_near(p_m);
+    if (cell.row < 0) return std::nullopt;
+    return rays.point_m(cell.row, cell.column);
+  }
 };
-
-// Calls use(patch, its center moved, distance of the reference from its plane) where there is a reference.
-template <class Use>
-void for_each_match(const Pose& T_ref_cur, const GridRays& reference, std::span<const SurfacePatch> patches,
-                    const Use& use) {
-  const Eigen::Matrix3f rotation = T_ref_cur.linear().cast<float>();
-  const Eigen::Vector3f translation_m = T_ref_cur.translation().cast<float>();
-  for (const SurfacePatch& patch : patches) {
-    const Eigen::Vector3f p_m = rotation * patch.center_m + translation_m;
-    const GridRays::Cell cell = reference.return_near(p_m);
-    if (cell.row < 0) continue;
-    const Eigen::Vector3f normal = rotation * patch.normal;
-    use(p_m, normal, normal.dot(p_m - reference.point_m(cell.row, cell.column)));
-  }
-}
-
-// Geman and McClure's kernel: a distance of `kernel_m` counts a quarter, what moves by itself nothing.
-float robust_share(float distance_m, float kernel_m) {
-  return kernel_m * kernel_m / (kernel_m * kernel_m + distance_m * distance_m);
-}
-
-// Sums in float: a step need not be right to more than a few digits.
-Evidence evidence_for(const Pose& T_ref_cur, const GridRays& reference, std::span<const SurfacePatch> patches,
-                      float kernel_m) {
-  Evidence evidence;
-  float hessian[6][6] = {}, gradient[6] = {};
-  for_each_match(T_ref_cur, reference, patches,
-                 [&](const Eigen::Vector3f& p_m, const Eigen::Vector3f& normal, float distance_m) {
-                   if (std::fabs(distance_m) < kInlierM) {
-                     ++evidence.inliers;
-                     evidence.inlier_squares_m2 += static_cast<double>(distance_m * distance_m);
-                   }
-                   const float share = robust_share(distance_m, kernel_m);
-                   const float weight = share * share;
-                   const Eigen::Vector3f turning = p_m.cross(normal);
-                   const float jacobian[6] = {normal.x(),  normal.y(),  normal.z(),
-                                              turning.x(), turning.y(), turning.z()};
-                   for (int i = 0; i < 6; ++i) {
-                     const float weighted = weight * jacobian[i];
-                     gradient[i] += distance_m * weighted;
-                     for (int j = 0; j < 6; ++j) hessian[i][j] += weighted * jacobian[j];
-                   }
-                   evidence.weight += static_cast<double>(weight);
-                 });
-  evidence.hessian = Eigen::Matrix<float, 6, 6>::Map(&hessian[0][0]).cast<double>();
-  evidence.gradient = Eigen::Matrix<float, 6, 1>::Map(gradient).cast<double>();
-  return evidence;
-}
-
-// Mean cost of those that match anything: the farther away, the fewer do, which says nothing. Infinite when
-// fewer than `least` do.
-double mean_cost_m2(const Pose& T_ref_cur, const GridRays& reference, std::span<const SurfacePatch> patches,
-                    float kernel_m, int least) {
-  int matches = 0;
-  float sum_m2 = 0;
-  for_each_match(T_ref_cur, reference, patches,
-                 [&](const Eigen::Vector3f&, const Eigen::Vector3f&, float distance_m) {
-                   ++matches;
-                   sum_m2 += distance_m * distance_m * robust_share(distance_m, kernel_m);
-                 });
-  if (matches == 0 || matches < least) return std::numeric_limits<double>::infinity();
-  return static_cast<double>(sum_m2) / matches;
-}
-
-Vector6 scale() {
-  Vector6 scale;
-  scale << 1, 1, 1, 1 / kLeverArmM, 1 / kLeverArmM, 1 / kLeverArmM;
-  return scale;
-}
-
-// By how much it moves a point a lever arm away.
-double step_m(const Vector6& step) {
-  return step.head<3>().norm() + kLeverArmM * step.tail<3>().norm();
-}
-
-Vector6 solve(const Evidence& evidence) {
-  Matrix6 damped = evidence.hessian;
-  const Vector6 damping = (kDamping * evidence.weight + 1e-9) * scale().cwiseInverse().cwiseAbs2();
-  damped.diagonal() += damping;
-  const Vector6 step = damped.ldlt().solve(-evidence.gradient);
-  return step.allFinite() ? step : Vector6::Zero();
-}
-
-Pose moved(const Vector6& step, const Pose& pose) {
-  const double angle_rad = step.tail<3>().norm();
-  Pose change = Pose::Identity();
-  if (angle_rad > 0) {
-    change.linear() = Eigen::AngleAxisd(angle_rad, step.tail<3>() / angle_rad).toRotationMatrix();
-  }
-  change.translation() = step.head<3>();
-  return change * pose;
-}
-
-double weakest_share(const Evidence& evidence) {
-  if (!(evidence.weight > 0)) return 0;
-  const Matrix6 scaled = scale().asDiagonal() * evidence.hessian * scale().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(scaled, Eigen::EigenvaluesOnly);
-  return std::max(0.0, solver.eigenvalues().minCoeff() / evidence.weight);
-}
-
-// The translation that the patches see least, rotations free.
-Eigen::Vector3d weakest_translation(const Evidence& evidence) {
-  const Matrix6& h = evidence.hessian;
-  const Eigen::Matrix3d rotations = h.bottomRightCorner<3, 3>() + 1e-9 * Eigen::Matrix3d::Identity();
-  const Eigen::Matrix3d translations =
-      h.topLeftCorner<3, 3>() - h.topRightCorner<3, 3>() * rotations.ldlt().solve(h.bottomLeftCorner<3, 3>());
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(translations);
-  return solver.eigenvectors().col(0);
-}
-
-// Steps find the nearest minimum only, and along a street there are many: looks for the best one along the
-// direction that is seen least.
-Pose best_along_weakest(const Pose& pose, const Evidence& coarse_evidence, const GridRays& reference,
-                        std::span<const SurfacePatch> patches) {
-  constexpr float kKernelM = 0.3F;
-  constexpr int kSteps = 10;  // to each side
-  constexpr double kStepM = 0.3;
-  constexpr float kAcross = 0.3F;
-  constexpr std::size_t kMostPatches = 400;
-  const Eigen::Vector3d direction = weakest_translation(coarse_evidence);
-  if (!direction.allFinite()) return pose;
-  // Surfaces along the direction say nothing.
-  const Eigen::Vector3f seen_from_patch = (pose.linear().transpose() * direction).cast<float>();
-  std::vector<SurfacePatch> across;
-  for (const SurfacePatch& patch : patches) {
-    if (across.size() < kMostPatches && std::fabs(patch.normal.dot(seen_from_patch)) > kAcross) {
-      across.push_back(patch);
-    }
-  }
-  const int least = static_cast<int>(across.size() / 2);
-  double least_m2 = mean_cost_m2(pose, reference, across, kKernelM, least);
-  Pose best = pose;
-  for (int step = -kSteps; step <= kSteps; ++step) {
-    if (step == 0) continue;
-    Pose candidate = pose;
-    candidate.translation() += step * kStepM * direction;
-    const double cost_m2 = mean_cost_m2(candidate, reference, across, kKernelM, least);
-    if (!(cost_m2 < least_m2)) continue;
-    least_m2 = cost_m2;
-    best = candidate;
-  }
-  return best;
-}
-
-// A start may be the guess, and near, or none, and then the widest kernels come first.
-enum class Start : std::uint8_t { near, far };
-
-Registration register_from(const Pose& start_pose, Start start, const GridRays& reference,
-                           std::span<const SurfacePatch> patches, const RegistrationSettings& settings) {
-  constexpr float kFinestM = 0.1F;
-  const auto coarse =
-      patches.first(std::min(patches.size(), static_cast<std::size_t>(std::max(0, settings.coarse_patches))));
-  Pose pose = start_pose;
-  const auto step_twice = [&](float kernel_m) {
-    for (int i = 0; i < 2; ++i) pose = moved(solve(evidence_for(pose, reference, coarse, kernel_m)), pose);
-  };
-  if (start == Start::far) {
-    for (const float kernel_m : {2.0F, 1.0F}) step_twice(kernel_m);
-  }
-  pose = best_along_weakest(pose, evidence_for(pose, reference, coarse, 0.5F), reference, patches);
-  for (const float kernel_m : {0.5F, 0.25F}) step_twice(kernel_m);
-  Evidence evidence = evidence_for(pose, reference, patches, kFinestM);
-  bool settled = false;
-  for (int i = 0; i < settings.rounds && !settled; ++i) {
-    const Vector6 step = solve(evidence);
-    pose = moved(step, pose);
-    evidence = evidence_for(pose, reference, patches, kFinestM);
-    settled = step_m(step) < kStillM;
-  }
-
-  Registration result;
-  result.T_ref_cur = start_pose;
-  if (patches.empty()) return result;
-  result.inlier_share = static_cast<double>(evidence.inliers) / static_cast<double>(patches.size());
-  result.rms_m = std::sqrt(evidence.inlier_squares_m2 / std::max(1, evidence.inliers));
-  result.weakest_share = weakest_share(evidence);
-  result.converged = evidence.inliers >= kLeastInliers && result.inlier_share >= kLeastInlierShare &&
-                     pose.matrix().allFinite();
-  if (result.converged) result.T_ref_cur = pose;
-  return result;
-}
 
 }  // namespace
 
 Registration register_sweeps(const RangeGrid& reference, const RangeGrid& current,
                              const std::optional<Pose>& guess, const RegistrationSettings& settings) {
-  const GridRays reference_rays(reference);
+  const GridReference reference_returns{GridRays(reference)};
   const auto patches = find_surface_patches(GridRays(current), settings.patches);
-  if (!guess || !guess->matrix().allFinite()) {
-    return register_from(Pose::Identity(), Start::far, reference_rays, patches, settings);
-  }
-  Registration near = register_from(*guess, Start::near, reference_rays, patches, settings);
-  if (near.converged) return near;
-  Registration far = register_from(Pose::Identity(), Start::far, reference_rays, patches, settings);
-  return far.converged ? far : near;
+  return align_patches(reference_returns, patches, guess, settings);
 }
 
 }  // namespace pointreel

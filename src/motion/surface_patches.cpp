@@ -30,16 +30,6 @@ struct Sum {
   Eigen::Vector3f mean_m() const { return sum_m / static_cast<float>(count); }
 };
 
-// Ground, and four directions of walls. None may take more than its share, or the few surfaces that tell how
-// far the sensor went would drown among those along the way.
-int facing(const Eigen::Vector3f& normal) {
-  constexpr float kLevel = 0.8F;
-  if (std::fabs(normal.z()) > kLevel) return 0;
-  const bool steep = std::fabs(normal.y()) > std::fabs(normal.x());
-  const bool same_sign = normal.x() * normal.y() > 0;
-  return 1 + (steep ? 2 : 0) + (same_sign ? 1 : 0);
-}
-
 // A look at a cell's four far neighbours alone, which settles most cases: the direction that a plane through
 // them would face; negative: there is none.
 int facing_at_first_sight(const GridRays& sweep, int row, int column, int half_rows) {
@@ -110,7 +100,7 @@ std::vector<SurfacePatch> find_surface_patches(const GridRays& sweep, int most) 
   auto step = static_cast<std::int64_t>(0.6180339887 * static_cast<double>(cells));
   while (std::gcd(step, cells) != 1) ++step;
   const std::int64_t tries = std::min<std::int64_t>(cells, 6 * static_cast<std::int64_t>(most));
-  std::array<int, 5> count_facing{};
+  std::array<int, kFacings> count_facing{};
   const int most_facing = std::max(1, most / 3);
   patches.reserve(static_cast<std::size_t>(most));
   for (std::int64_t i = 0, cell = 0; i < tries && static_cast<int>(patches.size()) < most; ++i) {

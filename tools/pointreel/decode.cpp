@@ -3,9 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -16,6 +14,7 @@
 #include "common/stopwatch.h"
 #include "pointreel/console.h"
 #include "pointreel/exit_code.h"
+#include "pointreel/frame_range.h"
 #include "pointreel/io.h"
 #include "pointreel/missing_frames.h"
 #include "pointreel/reel_input.h"
@@ -34,37 +33,6 @@ struct DecodeArguments {
   bool force = false;
   bool json = false;
 };
-
-struct FrameRange {
-  std::uint32_t begin = 0;
-  std::uint32_t end = std::numeric_limits<std::uint32_t>::max();  // exclusive
-  bool contains(std::uint32_t frame) const { return frame >= begin && frame < end; }
-};
-
-// "A:B", "A:", ":B" (B exclusive) or a single "A".
-Result<FrameRange> parse_frames(const std::string& text) {
-  FrameRange range;
-  const auto number = [&](std::string_view part, std::uint32_t& value) {
-    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
-    return error == std::errc{} && end == part.data() + part.size();
-  };
-  const std::size_t colon = text.find(':');
-  const std::string_view first = std::string_view(text).substr(0, colon);
-  bool good = true;
-  if (colon == std::string::npos) {
-    good = number(first, range.begin);
-    range.end = range.begin + 1;
-  } else {
-    const std::string_view second = std::string_view(text).substr(colon + 1);
-    if (!first.empty()) good = number(first, range.begin);
-    if (!second.empty()) good = good && number(second, range.end);
-  }
-  if (!good || range.begin >= range.end) {
-    return Error{ErrorCode::invalid_argument,
-                 fmt::format("--frames: '{}' is not A:B with A < B (B is not included)", text)};
-  }
-  return range;
-}
 
 struct Written {
   explicit Written(const FrameRange& wanted) : missing(wanted.begin) {}

@@ -12,6 +12,7 @@ Verb add_encode(CLI::App& app);
 Verb add_decode(CLI::App& app);
 Verb add_info(CLI::App& app);
 Verb add_verify(CLI::App& app);
+Verb add_planes(CLI::App& app);
 Verb add_simulate(CLI::App& app);
 
 }  // namespace pointreel
