@@ -1,5 +1,5 @@
 // registration_drift: how far the encoder's own registration drifts from true poses, and how long it takes,
-// beside PCL's point-to-plane ICP on the whole clouds.
+// beside registration by the planes of encoded sweeps and PCL's point-to-plane ICP on the whole clouds.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -15,6 +15,7 @@
 #include "codec/measured_grid.h"
 #include "drift.h"
 #include "motion/registration.h"
+#include "pointreel/codec.h"
 #include "pointreel/exit_code.h"
 #include "pointreel/simulator.h"
 #include "require.h"
@@ -78,6 +79,37 @@ MotionTrack own_track(const std::vector<PointCloud>& sweeps, const RegistrationS
   return track;
 }
 
+// From the planes of the encoded sweeps alone.
+MotionTrack planes_track(const std::vector<PointCloud>& sweeps, double bound_m) {
+  EncoderOptions options;
+  options.method = Method::planes;
+  options.mixture.max_error_m = bound_m;
+  options.mixture.effort = Effort::fast;
+  options.mixture.group = 255;
+  options.mixture.fields.all_others = false;
+  Encoder encoder = require(Encoder::create(options, Runtime{1}));
+  Decoder decoder = require(Decoder::create(encoder.header(), Runtime{1}));
+  MotionTrack track;
+  std::optional<SweepPlanes> previous;
+  std::optional<Pose> guess;
+  for (const PointCloud& sweep : sweeps) {
+    const auto packets = require(encoder.encode(sweep));
+    SweepPlanes planes = require(decoder.decode_planes(packets).front());
+    if (previous) {
+      const std::clock_t begin = std::clock();
+      const auto found = register_planes(*previous, planes, guess);
+      track.cpu_ms.push_back(1000.0 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
+      if (found)
+        guess = found->T_ref_cur;
+      else
+        ++track.failures;
+      track.T_previous_sweep.push_back(guess.value_or(Pose::Identity()));
+    }
+    previous = std::move(planes);
+  }
+  return track;
+}
+
 void print_row(const std::string& set, const std::string& method, const MotionTrack& track,
                const std::vector<Pose>& truth) {
   const Drift drift = drift_of(track, truth);
@@ -91,6 +123,8 @@ void compare(const std::string& name, const std::vector<PointCloud>& sweeps, con
              const Arguments& arguments) {
   print_row(name, "own", own_track(sweeps, {}, arguments.reference_bound_m), truth);
   print_row(name, "own, quick", own_track(sweeps, kQuickRegistration, arguments.reference_bound_m), truth);
+  for (const double bound_m : {0.02, 0.05, 0.1})
+    print_row(name, fmt::format("planes, {:g} cm", 100 * bound_m), planes_track(sweeps, bound_m), truth);
 #ifdef POINTREEL_WITH_PCL
   if (!arguments.with_pcl) return;
   for (const PclIcpSettings& settings : {PclIcpSettings{0.3, 1}, PclIcpSettings{0.1, 0.5}}) {

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <numeric>
+#include <string>
 
 #include "base/trigonometry.h"
 #include "motion/patch_alignment.h"
@@ -34,8 +36,8 @@ class PlanesByDirection {
 
   // Where the plane of the nearest tile that faces the same way is nearest to a point.
   std::optional<Eigen::Vector3f> partner_m(const Eigen::Vector3f& p_m, const Eigen::Vector3f& normal) const {
-    constexpr float kSameDirection = 0.9F;
-    constexpr float kFarthestShare = 0.15F, kFarthestM = 1;  // of a tile's center from the point
+    constexpr float kSameDirection = 0.97F;
+    constexpr float kFarthestShare = 0.1F, kFarthestM = 0.5F;  // of a tile's center from the point
     const Bin bin = bin_of(p_m);
     const float most_m = kFarthestM + kFarthestShare * p_m.norm();
     float nearest_m2 = most_m * most_m;
@@ -107,16 +109,73 @@ std::vector<SurfacePatch> patches_of(const SweepPlanes& sweep, int most) {
   return patches;
 }
 
+// How many tiles that face the direction which is seen least say that the pose is right, and how many would
+// say so of one farther along it.
+struct Support {
+  int here = 0, elsewhere = 0;
+  Eigen::Vector3d to_elsewhere_m = Eigen::Vector3d::Zero();
+};
+
+Support support_of(const Pose& pose, const PlanesByDirection& planes, std::span<const SurfacePatch> patches) {
+  using namespace patch_alignment;
+  constexpr float kFacing = 0.3F;
+  constexpr std::size_t kMostPatches = 100;
+  constexpr double kStepM = 0.3;
+  constexpr int kSteps = 10;  // to each side; the first is still here
+  const Eigen::Vector3d direction = weakest_translation(evidence_for(pose, planes, patches, kInlierM));
+  const Eigen::Vector3f seen_from_patch = (pose.linear().transpose() * direction).cast<float>();
+  std::vector<SurfacePatch> across;
+  for (const SurfacePatch& patch : patches) {
+    if (across.size() < kMostPatches && std::fabs(patch.normal.dot(seen_from_patch)) > kFacing)
+      across.push_back(patch);
+  }
+  Support support;
+  for (int step = -kSteps; step <= kSteps; ++step) {
+    Pose moved_pose = pose;
+    moved_pose.translation() += step * kStepM * direction;
+    int inliers = 0;
+    for_each_match(moved_pose, planes, std::span<const SurfacePatch>(across),
+                   [&](const Eigen::Vector3f&, const Eigen::Vector3f&, float distance_m) {
+                     inliers += std::fabs(distance_m) < kInlierM ? 1 : 0;
+                   });
+    if (step == 0) support.here = inliers;
+    if (std::abs(step) < 2 || inliers <= support.elsewhere) continue;
+    support.elsewhere = inliers;
+    support.to_elsewhere_m = step * kStepM * direction;
+  }
+  return support;
+}
+
+// To the nearest minimum.
+void refine(const PlanesByDirection& planes, std::span<const SurfacePatch> patches, Registration& found) {
+  using namespace patch_alignment;
+  for (const float kernel_m : {0.25F, 0.25F, 0.1F, 0.1F, 0.1F})
+    found.T_ref_cur = moved(solve(evidence_for(found.T_ref_cur, planes, patches, kernel_m)), found.T_ref_cur);
+  const Evidence evidence = evidence_for(found.T_ref_cur, planes, patches, kInlierM);
+  found.inlier_share = static_cast<double>(evidence.inliers) / static_cast<double>(patches.size());
+  found.rms_m = std::sqrt(evidence.inlier_squares_m2 / std::max(1, evidence.inliers));
+  found.weakest_share = weakest_share(evidence);
+}
+
 }  // namespace
 
 Result<PlaneRegistration> register_planes(const SweepPlanes& reference, const SweepPlanes& current,
                                           const std::optional<Pose>& guess) {
-  constexpr RegistrationSettings kSettings{900, 300, 4};
-  constexpr double kLeastShare = 0.01;  // of the weakest degree of freedom
+  constexpr RegistrationSettings kSettings{900, 500, 5};
+  constexpr int kLeastSupport = 8;
   const PlanesByDirection planes(reference);
   const auto patches = patches_of(current, kSettings.patches);
-  const Registration found = align_patches(planes, patches, guess, kSettings);
-  if (!found.converged || found.weakest_share < kLeastShare) {
+  Registration found = align_patches(planes, patches, guess, kSettings);
+  Support support;
+  if (found.converged) {
+    support = support_of(found.T_ref_cur, planes, patches);
+    if (support.elsewhere > support.here) {
+      found.T_ref_cur.translation() += support.to_elsewhere_m;
+      refine(planes, patches, found);
+      support = support_of(found.T_ref_cur, planes, patches);
+    }
+  }
+  if (!found.converged || support.here < kLeastSupport || 2 * support.here < 3 * support.elsewhere) {
     return Error{ErrorCode::invalid_argument, "too few planes constrain the motion from frame " +
                                                   std::to_string(reference.frame) + " to " +
                                                   std::to_string(current.frame)};
