@@ -11,7 +11,7 @@
 namespace pointreel {
 
 struct Setting {
-  PlanesOptions planes;
+  PlanesOptions planes{.grid = PlaneGrid::uniform};
   MotionSource motion = MotionSource::none;
   int threads = 0;  // 0: one per processor
 };

@@ -70,9 +70,9 @@ std::optional<SensorRays::Cell> SensorRays::cell_towards(double x_m, double y_m,
   const double azimuth_rad =
       static_cast<double>(fast_atan2(static_cast<float>(y_m), static_cast<float>(x_m)));
   double turns = azimuth_rad / (2 * kPi) - at.azimuth_turns - at.side_offset_m / (2 * kPi * rho_m);
+  turns -= static_cast<double>(static_cast<std::int64_t>(turns));
   turns += turns < 0 ? 1 : 0;
-  turns += turns < 0 ? 1 : 0;
-  turns -= turns < 1 ? 0 : 1;
+  turns = turns < 1 ? turns : 0;
   auto tick = static_cast<std::uint32_t>(turns * ticks_per_turn_);
   if (tick < column_tick_.front()) tick += ticks_per_turn_;
   const auto found = std::lower_bound(column_tick_.begin(), column_tick_.end(), tick);

@@ -24,6 +24,7 @@ Packet sample_packet() {
 StreamHeader planes_header() {
   StreamHeader header;
   header.method = Method::planes;
+  header.planes.grid = PlaneGrid::uniform;
   header.planes.residual_step_m = 0.2;
   return header;
 }
@@ -133,6 +134,24 @@ TEST(StreamHeader, OfMixtureComesBackAsSerialized) {
   EXPECT_EQ(parsed->group, 17);
 }
 
+TEST(StreamHeader, OfPlanesOnTheSensorsGridComesBackAsSerialized) {
+  StreamHeader header;
+  header.method = Method::planes;
+  header.max_error_m = 0.07;
+  header.group = 9;
+  header.effort = Effort::max;
+  auto bytes = serialize(header);
+  EXPECT_EQ(bytes.size(), kStreamHeaderBytes);
+  const auto parsed = parse_stream_header(bytes);
+  ASSERT_TRUE(parsed) << parsed.error().message;
+  EXPECT_EQ(parsed->method, Method::planes);
+  EXPECT_EQ(parsed->planes.grid, PlaneGrid::sensor);
+  EXPECT_TRUE(parsed->on_sensor_grid());
+  EXPECT_EQ(parsed->bound_m(), 0.07);
+  EXPECT_EQ(parsed->group, 9);
+  EXPECT_EQ(parsed->effort, Effort::max);
+}
+
 TEST(StreamHeader, OfPlanesComesBackAsSerialized) {
   StreamHeader header = planes_header();
   header.planes.threshold_m = 0.03;
@@ -175,6 +194,10 @@ TEST(StreamHeader, ValuesOutOfRangeAreErrorsEvenWithAGoodChecksum) {
   expect_corrupt("residual-step", [](StreamHeader& h) { h.planes.residual_mode = ResidualMode{2}; });
   expect_corrupt("steps", [](StreamHeader& h) { h.planes.azimuth_step_rad = 1e-9; });
   expect_corrupt("steps", [](StreamHeader& h) { h.planes.elevation_step_rad = -1; });
+  expect_corrupt("grid", [](StreamHeader& h) { h.planes.grid = PlaneGrid{2}; });
+  const auto on_sensor_grid = [](StreamHeader& h) { h.planes.grid = PlaneGrid::sensor; };
+  expect_corrupt("max-error", [&](StreamHeader& h) { on_sensor_grid(h), h.max_error_m = 2; });
+  expect_corrupt("effort", [&](StreamHeader& h) { on_sensor_grid(h), h.effort = Effort{3}; });
   const auto of_mixture = [](StreamHeader& h) { h.method = Method::mixture; };
   expect_corrupt("max-error", [&](StreamHeader& h) { of_mixture(h), h.max_error_m = std::nan(""); });
   expect_corrupt("max-error", [&](StreamHeader& h) { of_mixture(h), h.max_error_m = 2; });

@@ -1,4 +1,4 @@
-// Writes the golden streams of method `mixture`, with the digests of what they decode to.
+// Writes the golden streams on the sensor's grid, with the digests of what they decode to.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -104,8 +104,10 @@ PointCloud scattered(const PointCloud& sweep) {
   return cloud;
 }
 
-bool write(const std::string& stem, const std::vector<PointCloud>& sweeps, const MixtureOptions& mixture) {
+bool write(const std::string& stem, const std::vector<PointCloud>& sweeps, const MixtureOptions& mixture,
+           Method method = Method::mixture) {
   EncoderOptions options;
+  options.method = method;
   options.mixture = mixture;
   auto encoder = Encoder::create(options);
   if (!encoder) return false;
@@ -143,9 +145,13 @@ bool write_all(const std::string& folder) {
   fine.group = 2;
   coarse.max_error_m = 0.02;
   coarse.fields.named = {{"intensity", 0.05}};
+  MixtureOptions planes;
+  planes.max_error_m = 0.1;
   return write(folder + "/mixture_v1_firing_order", firing, fine) &&
          write(folder + "/mixture_v1_compensated", {compensated(high[0].cloud, motion)}, coarse) &&
-         write(folder + "/mixture_v1_scattered", {scattered(low[0].cloud)}, coarse);
+         write(folder + "/mixture_v1_scattered", {scattered(low[0].cloud)}, coarse) &&
+         write(folder + "/planes_v1_sensor", {low[0].cloud, low[1].cloud, low[2].cloud}, planes,
+               Method::planes);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ constexpr int kFinestRows = 10472, kFinestColumns = 20944;  // of steps of 0.000
 StreamHeader finest_header(int tile_size = 2) {
   StreamHeader header;
   header.method = Method::planes;
+  header.planes.grid = PlaneGrid::uniform;
   header.planes.azimuth_step_rad = header.planes.elevation_step_rad = 0.0003;
   header.planes.tile_size = tile_size;
   header.planes.residual_step_m = 0.2;

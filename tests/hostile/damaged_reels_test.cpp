@@ -144,6 +144,7 @@ TEST_P(DamagedReels, OtherValidHeaders) {
 INSTANTIATE_TEST_SUITE_P(Hostile, DamagedReels,
                          testing::Values(Sample{"Stepped", planes_sample(ResidualMode::stepped)},
                                          Sample{"Raw", planes_sample(ResidualMode::raw_float)},
+                                         Sample{"SensorPlanes", sensor_planes_sample()},
                                          Sample{"Mixture", mixture_sample(0.02)},
                                          Sample{"MixtureFine", mixture_sample(0.0005)}),
                          [](const auto& sample) { return std::string(sample.param.name); });

@@ -40,6 +40,26 @@ inline void expect_valid(const Packet& packet, const DecodedSweep& sweep) {
   EXPECT_TRUE(sweep.T_key_sensor.matrix().allFinite());
 }
 
+inline void expect_valid_planes(const std::vector<Result<SweepPlanes>>& sweeps) {
+  const SweepPlanes* before = nullptr;
+  for (const auto& sweep : sweeps) {
+    if (!sweep) {
+      EXPECT_FALSE(sweep.error().message.empty());
+      continue;
+    }
+    for (const PlaneTile& tile : sweep->tiles) {
+      EXPECT_LT(tile.plane, sweep->planes.size());
+      EXPECT_TRUE(tile.center_m.allFinite());
+    }
+    if (before != nullptr) {
+      if (const auto motion = register_planes(*before, *sweep)) {
+        EXPECT_TRUE(motion->T_ref_cur.matrix().allFinite());
+      }
+    }
+    before = &*sweep;
+  }
+}
+
 inline Outcome decode_reel(const std::string& bytes) {
   Outcome outcome;
   std::istringstream stream(bytes);
@@ -53,10 +73,12 @@ inline Outcome decode_reel(const std::string& bytes) {
   if (!decoder) return outcome;
   outcome.opened = true;
 
+  auto planes_decoder = Decoder::create(reader->header(), Runtime{2});
   PacketBatches batches(*reader);
   for (auto batch = batches.next(); !batch.empty(); batch = batches.next()) {
     const auto sweeps = decoder->decode(batch);
     EXPECT_EQ(sweeps.size(), batch.size());
+    expect_valid_planes(planes_decoder->decode_planes(batch));
     for (std::size_t i = 0; i < sweeps.size(); ++i) {
       sweeps[i] ? ++outcome.sweeps : ++outcome.errors;
       if (sweeps[i]) expect_valid(batch[i], *sweeps[i]);
@@ -120,6 +142,7 @@ inline PointCloud thinned(const PointCloud& cloud) {
 inline EncoderOptions planes_sample(ResidualMode mode) {
   EncoderOptions options;
   options.method = Method::planes;
+  options.planes.grid = PlaneGrid::uniform;
   options.planes.group = 3;
   options.planes.azimuth_step_rad = options.planes.elevation_step_rad = 0.035;
   options.planes.residual_mode = mode;
@@ -132,8 +155,14 @@ inline EncoderOptions mixture_sample(double max_error_m) {
   return options;
 }
 
-// A short simulated drive in two groups of three. For `mixture` one sweep has no order, so that both ways of
-// coding occur.
+inline EncoderOptions sensor_planes_sample() {
+  EncoderOptions options = mixture_sample(0.1);
+  options.method = Method::planes;
+  return options;
+}
+
+// A short simulated drive in two groups of three. On the sensor's grid one sweep has no order, so that both
+// ways of coding occur.
 struct SampleReel {
   EncoderOptions options;
   StreamHeader header;
@@ -143,9 +172,9 @@ struct SampleReel {
     const auto drive = simulated_drive(6);
     auto clouds = clouds_of(drive);
     for (PointCloud& cloud : clouds) {
-      if (options.method == Method::mixture) cloud = thinned(cloud);
+      if (header.on_sensor_grid()) cloud = thinned(cloud);
     }
-    if (options.method == Method::mixture) clouds[2] = random_sphere(300, 5, 1);
+    if (header.on_sensor_grid()) clouds[2] = random_sphere(300, 5, 1);
     packets = encode_all(clouds, options, poses_of(drive));
   }
   std::string bytes() const { return reel_of(header, packets); }

@@ -48,6 +48,7 @@ TEST(OneCall, GivesEverySweepBackWithinTheBound) {
 TEST(OneCall, PlanesComeInTheOrderOfTheSweeps) {
   EncoderOptions options;
   options.method = Method::planes;
+  options.planes.grid = PlaneGrid::uniform;
   options.planes.group = 3;
   const auto sweeps = drive(4);
   const std::vector<Pose> poses(4, Pose::Identity());

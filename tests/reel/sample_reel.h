@@ -11,6 +11,7 @@ namespace pointreel {
 inline StreamHeader sample_header() {
   StreamHeader header;
   header.method = Method::planes;
+  header.planes.grid = PlaneGrid::uniform;
   header.planes.residual_step_m = 0.2;
   return header;
 }

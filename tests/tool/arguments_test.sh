@@ -36,7 +36,7 @@ wrong "--fields: 'ring' is named twice" encode drive -o a.reel --fields ring,rin
 wrong "--method" encode drive -o a.reel --method zip
 wrong "--threads" encode drive -o a.reel --threads -1
 
-planes=(encode drive -o a.reel --method planes)
+planes=(encode drive -o a.reel --method planes --grid uniform)
 wrong "--threshold: '1 inch' is not a length" "${planes[@]}" --threshold "1 inch"
 wrong "--threshold must lie in 0.001 to 10 m" "${planes[@]}" --threshold 20m
 wrong "--group must lie in 1 to 255" "${planes[@]}" --group 0
@@ -47,15 +47,18 @@ wrong "--residual-step" "${planes[@]}" --residual-step 0
 wrong "--residual-step" "${planes[@]}" --residual-step never
 wrong "--imu" "${planes[@]}" --imu a.csv --poses b.txt
 
-# Options of the other method, even with their default values.
-wrong "--max-error goes with --method mixture only; method planes has --threshold" "${planes[@]}" --max-error 2cm
-wrong "--fields goes with --method mixture only" "${planes[@]}" --fields all
-wrong "--no-temporal goes with --method mixture only; for method planes, use --group 1" "${planes[@]}" --no-temporal
-wrong "--effort goes with --method mixture only" "${planes[@]}" --effort max
+# Options of the other grid, even with their default values.
+wrong "--max-error does not go with --method planes --grid uniform; the uniform grid has --threshold" "${planes[@]}" --max-error 2cm
+wrong "--fields does not go with --method planes --grid uniform" "${planes[@]}" --fields all
+wrong "--no-temporal does not go with --method planes --grid uniform; for the uniform grid, use --group 1" "${planes[@]}" --no-temporal
+wrong "--effort does not go with --method planes --grid uniform" "${planes[@]}" --effort max
 wrong "--effort" encode drive -o a.reel --effort slow
-wrong "--threshold goes with --method planes only; method mixture has --max-error" encode drive -o a.reel --threshold 0.1
+wrong "--grid" "${planes[@]}" --grid square
+wrong "--grid goes with --method planes only" encode drive -o a.reel --grid uniform
+wrong "--threshold goes only with --method planes --grid uniform; all else has --max-error" encode drive -o a.reel --threshold 0.1
 for option in --azimuth-step=1deg --elevation-step=1deg --tile=4 --residual-step=auto; do
-  wrong "${option%=*} goes with --method planes only" encode drive -o a.reel "$option"
+  wrong "${option%=*} goes only with --method planes --grid uniform" encode drive -o a.reel "$option"
+  wrong "${option%=*} goes only with --method planes --grid uniform" encode drive -o a.reel --method planes "$option"
 done
 [[ ! -e a.reel ]] || fail "an output of wrong arguments"
 
@@ -67,6 +70,8 @@ wrong "--poses and --imu go with files" "${planes[@]/drive/-}" --poses a.txt
 wrong "--json and -o -" encode drive -o - --json
 wrong "--frames: '3:1' is not A:B" decode a.reel -o out --frames 3:1
 wrong "--frames: 'x' is not A:B" decode a.reel -o out --frames x
+wrong "--frames: '3:1' is not A:B" planes a.reel -o out.json --frames 3:1
+wrong "-o: out.txt ends neither in .json nor in .ply" planes a.reel -o out.txt
 wrong "docx" decode a.reel -o out --format docx
 wrong "--sensor: " simulate -o drive --sensor hdl-1
 wrong "--frames" simulate -o drive --frames 0

@@ -5,10 +5,10 @@ source "$(dirname "$0")/support.sh" "$@"
 
 run 0 simulate -o drive --frames 5 --sensor vlp-16
 matches_expected simulate
-run 0 encode drive -o drive.reel --method planes --elevation-step 2deg --group 3
+run 0 encode drive -o drive.reel --method planes --grid uniform --elevation-step 2deg --group 3
 matches_expected encode_planes
 is_empty stderr
-run 0 encode drive -o again.reel --method planes --elevation-step 2deg --group 3 --threads 1 --json
+run 0 encode drive -o again.reel --method planes --grid uniform --elevation-step 2deg --group 3 --threads 1 --json
 same_file drive.reel again.reel
 bytes=$(stat -c %s drive.reel)
 json "r['frames'] == 5 and r['bytes'] == $bytes and r['bound_m'] == 0.1 and r['bound_kind'] == 'range'"
@@ -45,7 +45,7 @@ json "r['mean_error_m'] <= r['rmse_m'] <= r['max_error_m']"
 # Other options hold their bounds as well.
 for options in "--threshold 2cm" "--residual-step raw" "--group 1 --tile 7" "--residual-step 60cm" "--threshold 10m"; do
   # shellcheck disable=SC2086
-  run 0 encode drive -o other.reel -f --method planes --elevation-step 2deg $options
+  run 0 encode drive -o other.reel -f --method planes --grid uniform --elevation-step 2deg $options
   run 0 verify other.reel drive --json
   json "r['bound_held'] is True"
 done
@@ -61,7 +61,7 @@ for _ in range(500):
     sys.stdout.buffer.write(struct.pack("<4f", x, y, r * math.sin(elevation), 0))
 PYTHON
 for threshold in 1mm 10cm; do
-  run 0 encode far -o far.reel -f --method planes --threshold $threshold
+  run 0 encode far -o far.reel -f --method planes --grid uniform --threshold $threshold
   run 0 verify far.reel far
 done
 
@@ -71,13 +71,13 @@ run 1 verify drive.reel other
 says stderr "not the same sweep"
 run 1 verify drive.reel drive/velodyne/000000000{0,1}.bin
 says stderr "only 2 originals were given"
-run 0 encode drive/velodyne/0000000000.bin drive/velodyne/0000000001.bin -o two.reel --method planes --elevation-step 2deg
+run 0 encode drive/velodyne/0000000000.bin drive/velodyne/0000000001.bin -o two.reel --method planes --grid uniform --elevation-step 2deg
 run 3 verify two.reel drive
 says stderr "3 of the 5 originals are not in it"
 
 # An unreadable input ends the drive there; what came before it is kept.
 head -c 1001 drive/velodyne/0000000003.bin >broken && mv broken drive/velodyne/0000000003.bin
-run 3 encode drive -o partial.reel --method planes
+run 3 encode drive -o partial.reel --method planes --grid uniform
 says stderr "0000000003.bin"
 says stderr "partial.reel holds the 3 sweeps before the fault"
 run 0 info partial.reel --json

@@ -4,7 +4,7 @@
 source "$(dirname "$0")/support.sh" "$@"
 run 0 simulate -o drive --frames 6 --sensor vlp-16
 [[ $(wc -l <drive/poses.txt) == 6 && $(wc -l <drive/times.txt) == 6 ]] || fail "a pose and a time per sweep"
-options=(--method planes --elevation-step 2deg --group 6 --json)
+options=(--method planes --grid uniform --elevation-step 2deg --group 6 --json)
 
 run 0 encode drive -o still.reel "${options[@]}"
 run 0 encode drive -o poses.reel --poses drive/poses.txt "${options[@]}"
@@ -32,16 +32,16 @@ json "r['bound_held'] is True"
 
 # Files that do not fit name themselves.
 head -n 2 drive/poses.txt >few.txt
-run 1 encode drive -o a.reel --method planes --poses few.txt
+run 1 encode drive -o a.reel --method planes --grid uniform --poses few.txt
 says stderr "few.txt: holds 2 entries for 6 sweeps"
 awk '{ $1 += 1000; print }' tum.txt | head -n 4 >other_day.txt
-run 1 encode drive -o a.reel --method planes --poses other_day.txt
+run 1 encode drive -o a.reel --method planes --grid uniform --poses other_day.txt
 says stderr "other_day.txt: "
-run 1 encode drive -o a.reel --method planes --poses missing.txt
+run 1 encode drive -o a.reel --method planes --grid uniform --poses missing.txt
 says stderr "missing.txt"
-run 1 encode drive -o a.reel --method planes --imu missing.csv
+run 1 encode drive -o a.reel --method planes --grid uniform --imu missing.csv
 says stderr "missing.csv"
 echo "t,ax" >bad.csv && echo "1,2" >>bad.csv
-run 1 encode drive -o a.reel --method planes --imu bad.csv
+run 1 encode drive -o a.reel --method planes --grid uniform --imu bad.csv
 says stderr "bad.csv:"
 [[ ! -e a.reel ]] || fail "an output although the motion could not be read"

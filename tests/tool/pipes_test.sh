@@ -3,7 +3,7 @@
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "$0")/support.sh" "$@"
 make_planes_drive
-options=(--method planes --elevation-step 2deg --group 3)
+options=(--method planes --grid uniform --elevation-step 2deg --group 3)
 run 0 decode drive.reel -o files
 
 "$pointreel" encode drive -o - "${options[@]}" 2>stderr >stdout

@@ -57,5 +57,5 @@ matches_expected() {
 # A drive of five sweeps, compressed by method planes in two groups.
 make_planes_drive() {
   run 0 simulate -o drive --frames 5 --sensor vlp-16
-  run 0 encode drive -o drive.reel --method planes --elevation-step 2deg --group 3
+  run 0 encode drive -o drive.reel --method planes --grid uniform --elevation-step 2deg --group 3
 }

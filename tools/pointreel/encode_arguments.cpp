@@ -32,8 +32,8 @@ Result<void> options_fit(const EncodeArguments& arguments) {
   for (const CLI::Option* option : uniform ? arguments.sensor_only : arguments.uniform_only) {
     if (option->count() == 0) continue;
     return Error{ErrorCode::invalid_argument,
-                 fmt::format("{} goes {} --method planes --grid uniform{}", option->get_name(),
-                             uniform ? "not with" : "only with", advice_for(option->get_name()))};
+                 fmt::format("{} {} --method planes --grid uniform{}", option->get_name(),
+                             uniform ? "does not go with" : "goes only with", advice_for(option->get_name()))};
   }
   return {};
 }
