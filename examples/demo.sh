@@ -25,4 +25,4 @@ show() {
     "$out/$method.png"
 }
 show mixture --max-error 2cm
-show planes --threshold 10cm --poses "$out/drive/poses.txt"
+show planes --max-error 10cm

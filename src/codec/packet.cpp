@@ -126,10 +126,9 @@ Result<StreamHeader> parse_stream_header(std::span<const std::uint8_t> bytes) {
   }
   StreamHeader header;
   header.method = reader.get<Method>();
-  // The same place for both grids; methods without it have 0 there.
-  const auto grid = bytes.size() > kGridOffset ? static_cast<PlaneGrid>(bytes[kGridOffset]) : PlaneGrid{};
+  // The same place for both grids; method mixture has 0 there.
+  header.planes.grid = bytes.size() > kGridOffset ? static_cast<PlaneGrid>(bytes[kGridOffset]) : PlaneGrid{};
   std::uint64_t reserved = 0;
-  if (header.method == Method::planes) header.planes.grid = grid;
   if (header.on_sensor_grid()) {
     header.effort = reader.get<Effort>();
     header.group = reader.get<std::uint8_t>();

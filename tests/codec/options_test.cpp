@@ -117,6 +117,7 @@ TEST(Decoder, RefusesHeadersThatNoEncoderMakes) {
 TEST(RangeBound, IsTheWorseOfThresholdAndHalfTheResidualStep) {
   StreamHeader header;
   header.method = Method::planes;
+  header.planes.grid = PlaneGrid::uniform;
   header.planes.threshold_m = 0.1;
   header.planes.residual_step_m = 0.05;
   EXPECT_EQ(header.bound_m(), 0.1);

@@ -31,9 +31,10 @@ Result<void> options_fit(const EncodeArguments& arguments) {
   const bool uniform = is_uniform(arguments);
   for (const CLI::Option* option : uniform ? arguments.sensor_only : arguments.uniform_only) {
     if (option->count() == 0) continue;
-    return Error{ErrorCode::invalid_argument,
-                 fmt::format("{} {} --method planes --grid uniform{}", option->get_name(),
-                             uniform ? "does not go with" : "goes only with", advice_for(option->get_name()))};
+    return Error{
+        ErrorCode::invalid_argument,
+        fmt::format("{} {} --method planes --grid uniform{}", option->get_name(),
+                    uniform ? "does not go with" : "goes only with", advice_for(option->get_name()))};
   }
   return {};
 }
@@ -184,7 +185,7 @@ void add_encode_arguments(CLI::App& verb, EncodeArguments& arguments) {
           ->group(planes)};
 
   const std::string motion =
-      "Motion (mixture finds it in the sweeps where none is given, and refines what is)";
+      "Motion (where none is given it is found in the sweeps, but for the uniform grid)";
   auto* poses =
       verb.add_option("--poses", arguments.poses, "Sensor poses, one per sweep (KITTI), or with times (TUM)")
           ->group(motion);
