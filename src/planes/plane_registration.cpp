@@ -42,18 +42,21 @@ class PlanesByDirection {
     const float most_m = kFarthestM + kFarthestShare * p_m.norm();
     float nearest_m2 = most_m * most_m;
     const Facet* nearest = nullptr;
-    for (int up = std::max(0, bin.up - 1); up <= std::min(kUp - 1, bin.up + 1); ++up) {
-      for (int beside = -1; beside <= 1; ++beside) {
-        const std::size_t at = index((bin.across + beside) & (kAcross - 1), up);
-        for (std::uint32_t i = first_[at]; i < first_[at + 1]; ++i) {
-          const float away_m2 = (tiles_[i].center_m - p_m).squaredNorm();
-          if (!(away_m2 < nearest_m2)) continue;
-          const Facet& facet = planes_[tiles_[i].plane];
-          if (!(facet.normal.dot(normal) > kSameDirection)) continue;
-          nearest_m2 = away_m2;
-          nearest = &facet;
-        }
+    const auto look_at = [&](int first_across, int last_across, int up) {
+      const std::uint32_t end = first_[index(last_across, up) + 1];
+      for (std::uint32_t i = first_[index(first_across, up)]; i < end; ++i) {
+        const float away_m2 = (tiles_[i].center_m - p_m).squaredNorm();
+        if (!(away_m2 < nearest_m2)) continue;
+        const Facet& facet = planes_[tiles_[i].plane];
+        if (!(facet.normal.dot(normal) > kSameDirection)) continue;
+        nearest_m2 = away_m2;
+        nearest = &facet;
       }
+    };
+    for (int up = std::max(0, bin.up - 1); up <= std::min(kUp - 1, bin.up + 1); ++up) {
+      look_at(std::max(0, bin.across - 1), std::min(kAcross - 1, bin.across + 1), up);
+      if (bin.across == 0) look_at(kAcross - 1, kAcross - 1, up);  // around the seam
+      if (bin.across == kAcross - 1) look_at(0, 0, up);
     }
     if (nearest == nullptr) return std::nullopt;
     return p_m - (nearest->normal.dot(p_m) - nearest->distance_m) * nearest->normal;
