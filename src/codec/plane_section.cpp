@@ -12,8 +12,7 @@ MovedPlanes moved(const PlaneSetting& setting, const SensorRays& rays, const Ear
   if (earlier == nullptr || earlier->tiles.planes.empty()) return {};
   const SensorRays earlier_rays =
       rays_of(setting.model, earlier->grid, CodingGrid(setting.model, earlier->grid));
-  return MovedPlanes(earlier_rays, earlier->tiles, earlier->T_ref_cur, rays,
-                     TileGrid(rays.rows(), rays.columns()));
+  return {earlier_rays, earlier->tiles, earlier->T_ref_cur, rays, TileGrid(rays.rows(), rays.columns())};
 }
 
 double plane_step_m(const PlaneSetting& setting) {
@@ -39,7 +38,7 @@ void count_cells(const GridImage& image, const PlaneTiles& planes, FrameStatisti
 SensorRays rays_of(const SensorModel& model, const SweepGrid& grid, const CodingGrid& coding) {
   std::vector<std::size_t> shifts;
   for (std::size_t row = 0; row < coding.rows(); ++row) shifts.push_back(coding.shift(row));
-  return SensorRays(model, grid, shifts);
+  return {model, grid, shifts};
 }
 
 PlaneSection encode_planes(const PlaneSetting& setting, const EarlierPlanes* earlier, const GridImage& image,

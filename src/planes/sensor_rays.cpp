@@ -67,8 +67,7 @@ std::optional<SensorRays::Cell> SensorRays::cell_towards(double x_m, double y_m,
   constexpr double kMostSlopeBeyond = 0.02;
   if (std::fabs(height_above(nearest)) > kMostSlopeBeyond * rho_m) return std::nullopt;
   const Row& at = row(nearest);
-  const double azimuth_rad =
-      static_cast<double>(fast_atan2(static_cast<float>(y_m), static_cast<float>(x_m)));
+  const auto azimuth_rad = static_cast<double>(fast_atan2(static_cast<float>(y_m), static_cast<float>(x_m)));
   double turns = azimuth_rad / (2 * kPi) - at.azimuth_turns - at.side_offset_m / (2 * kPi * rho_m);
   turns -= static_cast<double>(static_cast<std::int64_t>(turns));
   turns += turns < 0 ? 1 : 0;

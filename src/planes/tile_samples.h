@@ -53,7 +53,7 @@ class TileSamples {
       std::size_t first_cell;
     };
     const TileSamples* samples_;
-    std::array<InRow, kTileRows> rows_;
+    std::array<InRow, kTileRows> rows_{};
     std::size_t count_ = 0;
   };
 

@@ -38,7 +38,7 @@ std::string json_of(std::span<const SweepPlanes> sweeps) {
 
 template <class T>
 void append(std::string& bytes, T value) {
-  std::array<char, sizeof value> raw;
+  std::array<char, sizeof value> raw{};
   std::memcpy(raw.data(), &value, sizeof value);
   bytes.append(raw.data(), raw.size());
 }
