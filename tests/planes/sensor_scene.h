@@ -25,7 +25,7 @@ struct SensorScene {
     for (const std::int32_t shift : column_shift_of_row(model, grid))
       shifts.push_back(static_cast<std::size_t>((shift % columns + columns) % columns));
   }
-  SensorRays rays() const { return SensorRays(model, grid, shifts); }
+  SensorRays rays() const { return {model, grid, shifts}; }
 
   // As a decoder places a point, in the sensor's coordinates.
   Point3f point(int row, int image_column, float range_m) const {
