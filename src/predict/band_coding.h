@@ -1,5 +1,4 @@
-// Bands: the rows of an image that are coded together, without a look at the others, so that a sweep can be
-// coded by several threads. They are a property of the stream, not of the machine.
+// Codes the bands of an image (bands.h): which cells hold a return, and at which range.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +6,7 @@
 #include <vector>
 
 #include "pointreel/result.h"
+#include "predict/bands.h"
 #include "predict/coding_kind.h"
 #include "predict/grid_image.h"
 #include "predict/hit_mask_state.h"
@@ -16,14 +16,6 @@
 #include "predict/reference_image.h"
 
 namespace pointreel {
-
-struct Band {
-  int first_row = 0;
-  int rows = 0;
-};
-
-// About 70,000 cells each: fewer learn too little, more leave threads idle.
-std::vector<Band> bands_of(int rows, int columns);
 
 // Everything that adapts while a band is coded.
 struct BandState {
