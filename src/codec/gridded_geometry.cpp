@@ -162,7 +162,7 @@ Result<RangeQuantiser> get_quantiser(ByteReader& reader, const SensorModel& mode
 EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud& cloud, GriddedSweep sweep,
                                std::span<const std::uint32_t> bursts, const Prediction* prediction,
                                ByteWriter& writer, FrameStatistics& statistics) {
-  const auto& [model, max_error_m, effort, threads] = setting;
+  const auto& [model, max_error_m, effort, threads, warp_memory] = setting;
   drop_unreachable(cloud, max_error_m, sweep);
   const RangeQuantiser quantiser = choose_quantiser(model, sweep, max_error_m);
 
@@ -178,8 +178,8 @@ EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud&
   }
   GridImage image = coding.image_of(range_of_cell_m, threads);
   ByteWriter image_bytes;
-  auto states = encode_image({model, sweep.grid, quantiser, effort, threads}, prediction, image, image_bytes,
-                             statistics);
+  auto states = encode_image({model, sweep.grid, quantiser, effort, threads, warp_memory}, prediction, image,
+                             image_bytes, statistics);
 
   // The points as the decoder will have them, in its sequence.
   range_of_cell_m = coding.ranges_of_cells(image, threads);
@@ -241,7 +241,7 @@ EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud&
 
 Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size_t points_out,
                                        const ReferenceSweep* reference, ByteReader& reader) {
-  const auto& [model, max_error_m, effort, threads] = setting;
+  const auto& [model, max_error_m, effort, threads, warp_memory] = setting;
   const auto grid = decode_sweep_grid(model, get_section(reader));
   if (!grid) return grid.error();
   const auto quantiser = get_quantiser(reader, model);
@@ -250,7 +250,8 @@ Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size
   if (grid->column_count() == 0) return Error{ErrorCode::corrupt, "its grid has no columns"};
   const CodingGrid coding(model, *grid);
   GridImage image = coding.empty_image();
-  auto states = decode_image({model, *grid, *quantiser, effort, threads}, reference, reader, image);
+  auto states =
+      decode_image({model, *grid, *quantiser, effort, threads, warp_memory}, reference, reader, image);
   if (!states) return states.error();
 
   const auto range_of_cell_m = coding.ranges_of_cells(image, threads);

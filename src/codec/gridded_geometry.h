@@ -35,9 +35,10 @@ struct CodedImage {
 // What both sides know of the sensor and the stream.
 struct GeometrySetting {
   const SensorModel& model;
-  double max_error_m = 0.02;
-  Effort effort = Effort::balanced;
-  int threads = 1;
+  double max_error_m;
+  Effort effort;
+  int threads;
+  WarpMemory& warp_memory;  // of the stream
 };
 
 struct EncodedGeometry {

@@ -9,14 +9,13 @@
 #include "codec/sections.h"
 #include "predict/band_coding.h"
 #include "predict/priors.h"
-#include "predict/warp.h"
 
 namespace pointreel {
 namespace {
 
-ReferenceImage reference_image(const ImageSetting& setting, const ReferenceSweep& reference,
-                               const Pose& T_ref_cur) {
-  return warp(setting.model, setting.grid, reference, T_ref_cur, setting.threads);
+const ReferenceImage& reference_image(const ImageSetting& setting, const ReferenceSweep& reference,
+                                      const Pose& T_ref_cur) {
+  return warp(setting.model, setting.grid, reference, T_ref_cur, setting.threads, setting.warp_memory);
 }
 
 // Where what the reference's bands have taught is for these, too.
@@ -73,14 +72,14 @@ Result<std::vector<Band>> get_bands(ByteReader& reader, int rows) {
 std::vector<BandState> encode_image(const ImageSetting& setting, const Prediction* prediction,
                                     GridImage& image, ByteWriter& writer, FrameStatistics& statistics) {
   const CodingKind kind{prediction != nullptr, setting.effort};
-  ReferenceImage reference;
+  const ReferenceImage* reference = nullptr;
   if (prediction != nullptr) {
     const std::size_t before = writer.size();
     put_relative_pose(writer, prediction->T_ref_cur);
     statistics.grid_bits += bits_of(writer.size() - before);
-    reference = reference_image(setting, prediction->reference, *quantised(prediction->T_ref_cur));
+    reference = &reference_image(setting, prediction->reference, *quantised(prediction->T_ref_cur));
   }
-  const BandSetting band_setting{kind, setting.quantiser, &reference};
+  const BandSetting band_setting{kind, setting.quantiser, reference};
   const bool goes_on = prediction != nullptr && !prediction->reference.states.empty();
   const auto bands =
       goes_on ? bands_of(prediction->reference.states) : choose_bands(image, setting.quantiser.step_m);
@@ -119,9 +118,9 @@ Result<std::vector<BandState>> decode_image(const ImageSetting& setting,
     ranges[b] = get_section(reader);
   }
   if (!reader.ok()) return Error{ErrorCode::truncated, "it ends within its ranges"};
-  ReferenceImage reference;
-  if (reference_sweep != nullptr) reference = reference_image(setting, *reference_sweep, T_ref_cur);
-  const BandSetting band_setting{kind, setting.quantiser, &reference};
+  const ReferenceImage* reference =
+      reference_sweep != nullptr ? &reference_image(setting, *reference_sweep, T_ref_cur) : nullptr;
+  const BandSetting band_setting{kind, setting.quantiser, reference};
   auto states = starting_states(kind, setting.quantiser.step_m, bands, reference_sweep);
   std::vector<Result<void>> results(bands.size());
   parallel_for(bands.size(), setting.threads, [&](std::size_t b) {

@@ -9,6 +9,7 @@
 #include "predict/grid_image.h"
 #include "predict/range_quantiser.h"
 #include "predict/reference_sweep.h"
+#include "predict/warp.h"
 
 namespace pointreel {
 
@@ -17,8 +18,9 @@ struct ImageSetting {
   const SensorModel& model;
   const SweepGrid& grid;
   const RangeQuantiser& quantiser;
-  Effort effort = Effort::balanced;
-  int threads = 1;
+  Effort effort;
+  int threads;
+  WarpMemory& warp_memory;  // of the stream
 };
 
 // The earlier sweep that a predicted frame starts from, and the motion since.

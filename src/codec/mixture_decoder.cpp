@@ -75,8 +75,9 @@ class MixtureDecoder final : public Decoder::Implementation {
     auto geometry =
         coding == SweepCoding::scattered
             ? decode_scattered_sweep(packet, reader)
-            : decode_gridded({model_, header_.max_error_m, header_.effort, threads_}, packet.points_out,
-                             coding == SweepCoding::predicted ? &reference : nullptr, reader);
+            : decode_gridded({model_, header_.max_error_m, header_.effort, threads_, warp_memory_},
+                             packet.points_out, coding == SweepCoding::predicted ? &reference : nullptr,
+                             reader);
     if (!geometry) return geometry.error();
     const std::size_t field_bytes = ByteReader(reader).rest().size();  // a copy: rest() takes them
     for (const Point3f& position : geometry->positions) {
@@ -120,6 +121,7 @@ class MixtureDecoder final : public Decoder::Implementation {
   std::optional<std::uint32_t> model_frame_;  // the frame that brought it
   CodedImage last_image_;                     // of the last sweep on the grid
   std::optional<std::uint32_t> reference_frame_;
+  WarpMemory warp_memory_;
 };
 
 }  // namespace

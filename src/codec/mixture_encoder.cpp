@@ -82,9 +82,9 @@ class MixtureEncoder final : public Encoder::Implementation {
       }
       reference_frame = T_ref_cur ? packet.frame - 1 : *model_frame_;
       const auto prediction = T_ref_cur ? std::optional(Prediction{reference_, *T_ref_cur}) : std::nullopt;
-      encoded =
-          encode_gridded({*model_, header_.max_error_m, header_.effort, threads_}, cloud, *std::move(gridded),
-                         bursts, prediction ? &*prediction : nullptr, writer, packet.statistics);
+      encoded = encode_gridded({*model_, header_.max_error_m, header_.effort, threads_, warp_memory_}, cloud,
+                               *std::move(gridded), bursts, prediction ? &*prediction : nullptr, writer,
+                               packet.statistics);
       ++model_age_;
       if (temporal_ && !starts_group())
         reference_ = reference_from(*model_, encoded.image.grid, encoded.image.image.range_m,
@@ -174,7 +174,8 @@ class MixtureEncoder final : public Encoder::Implementation {
   bool temporal_;
   SweepAlignment alignment_;
   ReferenceSweep reference_;  // the sweep before, as decoded
-  int model_age_ = 0;         // sweeps coded with it
+  WarpMemory warp_memory_;
+  int model_age_ = 0;  // sweeps coded with it
   std::uint32_t next_frame_ = 0;
   std::uint32_t next_group_ = 0;
 };

@@ -12,24 +12,6 @@
 namespace pointreel {
 namespace {
 
-// The image while it is rendered: the cells with a row above and a row below.
-struct WarpCanvas {
-  int rows, columns;
-  std::vector<float> range_m;      // weighted sums
-  std::vector<float> weight;       // their weights; 0: nothing yet
-  std::vector<std::uint8_t> hits;  // HitReference bits; the extra rows are hit, so that nobody fills them
-
-  WarpCanvas(int image_rows, int image_columns)
-      : rows(image_rows), columns(image_columns), range_m(size()), weight(size()), hits(size()) {
-    std::fill(hits.begin(), hits.begin() + columns, kWarpedHit);
-    std::fill(hits.end() - columns, hits.end(), kWarpedHit);
-  }
-  std::int32_t first_of_row(int row) const { return (row + 1) * columns; }
-
- private:
-  std::size_t size() const { return static_cast<std::size_t>(rows + 2) * static_cast<std::size_t>(columns); }
-};
-
 // Renders points into a part of the rows. Each cell has the points in the same sequence, whoever takes its
 // row.
 class Renderer {
@@ -126,12 +108,14 @@ std::vector<std::int32_t> columns_before(const SweepGrid& reference, const WarpT
 
 }  // namespace
 
-ReferenceImage warp(const SensorModel& model, const SweepGrid& grid, const ReferenceSweep& reference,
-                    const Pose& T_ref_cur, int threads) {
+const ReferenceImage& warp(const SensorModel& model, const SweepGrid& grid, const ReferenceSweep& reference,
+                           const Pose& T_ref_cur, int threads, WarpMemory& memory) {
   const CodingGrid coding(model, grid), coding_before(model, reference.grid);
   const WarpTarget target(model, grid, coding);
   const PointMotion motion(T_ref_cur);
-  WarpedPoints points(reference.rows, reference.columns);
+  auto& [points, canvas, image] = memory;
+  points.lay_out(reference.rows, reference.columns);
+  canvas.clear(target.rows, target.columns);
   const auto reference_rows = static_cast<std::size_t>(reference.rows);
   parallel_for(reference_rows, threads, [&](std::size_t row) {
     move_points(reference, static_cast<int>(row), motion, target, points);
@@ -141,9 +125,10 @@ ReferenceImage warp(const SensorModel& model, const SweepGrid& grid, const Refer
   });
 
   const auto image_columns = static_cast<std::size_t>(target.columns);
-  ReferenceImage image{target.rows, target.columns, std::vector<float>(coding.rows() * image_columns),
-                       std::vector<std::uint8_t>(coding.rows() * image_columns)};
-  WarpCanvas canvas(target.rows, target.columns);
+  image.rows = target.rows;
+  image.columns = target.columns;
+  image.range_m.resize(coding.rows() * image_columns);
+  image.hits.resize(coding.rows() * image_columns);
   const auto columns_in_reference = columns_before(reference.grid, target);
   const int pieces = std::max(1, std::min(threads, target.rows));
   parallel_for(static_cast<std::size_t>(pieces), threads, [&](std::size_t piece) {

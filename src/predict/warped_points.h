@@ -30,13 +30,16 @@ struct WarpedPoints {
 
   static constexpr std::int32_t kNone = -1;
 
-  WarpedPoints(int rows, int columns)
-      : stride_((static_cast<std::size_t>(columns) + 2 * kMargin + 7) / 8 * 8) {
-    const std::size_t size = stride_ * (static_cast<std::size_t>(rows) + 2);
+  // Keeps memory, and the empty margins, from a sweep of the same layout.
+  void lay_out(int rows, int columns) {
+    const std::size_t stride = (static_cast<std::size_t>(columns) + 2 * kMargin + 7) / 8 * 8;
+    const std::size_t size = stride * (static_cast<std::size_t>(rows) + 2);
+    if (stride == stride_ && size == row.size()) return;
+    stride_ = stride;
     for (auto* values :
          {&row, &column, &inverse_rho, &range_m, &per_column, &per_row, &nearest_range_m, &nearest_weight})
-      values->resize(size);
-    for (auto* values : {&sides, &upper_left, &nearest_cell}) values->resize(size);
+      values->assign(size, 0);
+    for (auto* values : {&sides, &upper_left, &nearest_cell}) values->assign(size, 0);
   }
   std::size_t index(int at_row, int at_column) const {
     return static_cast<std::size_t>(at_row + 1) * stride_ + kMargin + static_cast<std::size_t>(at_column);
@@ -44,7 +47,7 @@ struct WarpedPoints {
   std::size_t stride() const { return stride_; }
 
  private:
-  std::size_t stride_;
+  std::size_t stride_ = 0;
 };
 
 }  // namespace pointreel
