@@ -235,6 +235,7 @@ EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud&
     statistics.order_bits += bits_of(burst_bytes.size());
     encoded.geometry.bursts.assign(bursts.begin(), bursts.end());
   }
+  if (prediction != nullptr) draw_together(warp_memory.image, quantiser.step_m, image);
   encoded.image = {std::move(sweep.grid), std::move(image), std::move(states)};
   return encoded;
 }
@@ -301,6 +302,7 @@ Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size
     const bool stray = result.geometry.cell_of_point[i] < 0;
     result.positions[i] = stray ? strays[next_stray++].position : positions[cells[next_cell++]];
   }
+  if (reference != nullptr) draw_together(warp_memory.image, quantiser->step_m, image);
   result.image = {*grid, std::move(image), *std::move(states)};
   return result;
 }

@@ -25,7 +25,8 @@ struct CodedGeometry {
   std::vector<std::uint32_t> bursts;  // sizes, where the output order has yet to be sorted by them
 };
 
-// The decoded ranges on their grid: what the next sweep can be predicted from.
+// What the next sweep can be predicted from: the decoded ranges on their grid, in predicted frames drawn
+// towards what those before said (predict/reference_sweep.h).
 struct CodedImage {
   SweepGrid grid;
   GridImage image;                // empty for a sweep without a grid

@@ -139,6 +139,13 @@ TEST(Warp, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(one.hits, four.hits);
 }
 
+TEST(DrawTogether, AveragesWithinTheBinAndOnOneSurface) {
+  GridImage decoded{1, 6, {10, 10, 10, 0, 10, 10}};
+  draw_together({1, 6, {10.02F, 10.07F, 10.2F, 10, 0, 9.95F}, {}}, 0.04F, decoded);
+  const float expected_m[] = {10.006F, 10.012F, 10, 0, 10, 9.988F};
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(decoded.range_m[i], expected_m[i], 1e-5F) << i;
+}
+
 // Sweeps of one stream take the memory of the sweep before, whatever size that had.
 TEST(Warp, DoesNotDependOnWhatItsMemoryHeld) {
   const SensorModel model = sensor(8);
