@@ -25,9 +25,10 @@ namespace pointreel {
 // Sweeps in the order they were measured, positions in metres in the sensor's own coordinates, every field
 // with one value per point. The result holds all their points within options.mixture.max_error_m, or what
 // Encoder says of method `planes`. T_world_sensor is empty or has one pose for each sweep (`planes` needs
-// them for its groups, `mixture` starts its own registration from them). Equal arguments give equal bytes, whatever the number of threads.
-// Errors: invalid_argument for an option out of its range, another number of poses than sweeps, or a field
-// whose number of values is not that of the points; resource_limit for a sweep of more than 2^23 points.
+// them for its groups, `mixture` starts its own registration from them). Equal arguments give equal bytes,
+// whatever the number of threads. Errors: invalid_argument for an option out of its range, another number of
+// poses than sweeps, or a field whose number of values is not that of the points; resource_limit for a sweep
+// of more than 2^23 points.
 Result<std::vector<std::uint8_t>> encode(std::span<const PointCloud> sweeps,
                                          const EncoderOptions& options = {},
                                          std::span<const Pose> T_world_sensor = {},

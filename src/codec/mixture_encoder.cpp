@@ -47,7 +47,8 @@ class MixtureEncoder final : public Encoder::Implementation {
         grid_options_{std::max(kLeastDeviationM, 2 * header.max_error_m), header.max_error_m, threads},
         estimator_(grid_options_),
         // Registration and warping would take longer than all the rest.
-        temporal_(options.temporal && options.effort != Effort::fast) {}
+        temporal_(options.temporal && options.effort != Effort::fast),
+        alignment_(options.register_sweeps) {}
 
   const StreamHeader& header() const override { return header_; }
 

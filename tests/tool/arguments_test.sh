@@ -47,6 +47,9 @@ wrong "--residual-step" "${planes[@]}" --residual-step 0
 wrong "--residual-step" "${planes[@]}" --residual-step never
 wrong "--imu" "${planes[@]}" --imu a.csv --poses b.txt
 
+wrong "--motion none goes without --poses and --imu" encode drive -o a.reel --motion none --poses a.txt
+wrong "--motion" encode drive -o a.reel --motion maybe
+
 # Options of the other method, even with their default values.
 wrong "--max-error goes with --method mixture only; method planes has --threshold" "${planes[@]}" --max-error 2cm
 wrong "--fields goes with --method mixture only" "${planes[@]}" --fields all

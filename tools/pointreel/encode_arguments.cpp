@@ -45,6 +45,7 @@ Result<EncoderOptions> mixture_options(const EncodeArguments& arguments) {
                            : arguments.effort == "max" ? Effort::max
                                                        : Effort::balanced;
   options.mixture.temporal = !arguments.no_temporal;
+  options.mixture.register_sweeps = arguments.motion == "auto";
   return options;
 }
 
@@ -170,15 +171,20 @@ void add_encode_arguments(CLI::App& verb, EncodeArguments& arguments) {
           ->capture_default_str()
           ->group(planes)};
 
-  const std::string motion =
-      "Motion (mixture finds it in the sweeps where none is given, and refines what is)";
+  const std::string group = "Motion";
+  verb.add_option("--motion", arguments.motion,
+                  "auto: from --poses or --imu, and method mixture finds it in the sweeps or refines what is "
+                  "given; none: the sensor stands still")
+      ->check(CLI::IsMember({"auto", "none"}))
+      ->capture_default_str()
+      ->group(group);
   auto* poses =
       verb.add_option("--poses", arguments.poses, "Sensor poses, one per sweep (KITTI), or with times (TUM)")
-          ->group(motion);
+          ->group(group);
   verb.add_option("--imu", arguments.imu,
                   "IMU recording: .csv (t, ax, ay, az, wx, wy, wz) or a KITTI oxts folder")
       ->excludes(poses)
-      ->group(motion);
+      ->group(group);
 }
 
 Result<EncoderOptions> encoder_options(const EncodeArguments& arguments) {
@@ -187,6 +193,8 @@ Result<EncoderOptions> encoder_options(const EncodeArguments& arguments) {
                              : belongs_to_method(arguments.mixture_only, "mixture");
   if (!valid) return valid.error();
   if (const auto live = check_live(arguments); !live) return live.error();
+  if (arguments.motion == "none" && !(arguments.poses.empty() && arguments.imu.empty()))
+    return Error{ErrorCode::invalid_argument, "--motion none goes without --poses and --imu"};
   return mixture ? mixture_options(arguments) : planes_options(arguments);
 }
 
