@@ -27,18 +27,19 @@ void drop_unreachable(const PointCloud& cloud, double max_error_m, GriddedSweep&
   constexpr float kNearestM = 0.01F;
   const auto out_of_reach = [&](std::size_t i) {
     const Point3f& p = cloud.positions[i];
-    return !((std::fabs(p.x) < reach_m) & (std::fabs(p.y) < reach_m) & (std::fabs(p.z) < reach_m) &
-             (sweep.range_m[i] > kNearestM) & (sweep.range_m[i] < reach_m));
+    const float farthest_m =
+        std::max(std::max(std::fabs(p.x), std::fabs(p.y)), std::max(std::fabs(p.z), sweep.range_m[i]));
+    return (farthest_m < reach_m ? 0 : 1) | (sweep.range_m[i] > kNearestM ? 0 : 1);
   };
   // Hardly a block has one.
   constexpr std::size_t kBlock = 64;
   for (std::size_t first = 0; first < cloud.size(); first += kBlock) {
     const std::size_t last = std::min(cloud.size(), first + kBlock);
     int any = 0;
-    for (std::size_t i = first; i < last; ++i) any |= out_of_reach(i) ? 1 : 0;
+    for (std::size_t i = first; i < last; ++i) any |= out_of_reach(i);
     if (any == 0) continue;
     for (std::size_t i = first; i < last; ++i) {
-      if (out_of_reach(i)) sweep.cell_of_point[i] = -1;
+      if (out_of_reach(i) != 0) sweep.cell_of_point[i] = -1;
     }
   }
 }
@@ -288,6 +289,7 @@ Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size
 
   DecodedGeometry result;
   std::vector<std::uint32_t> stray_indices;
+  stray_indices.reserve(strays.size());
   for (const Stray& stray : strays) stray_indices.push_back(stray.index);
   result.geometry = merged(coding, cells, range_of_cell_m, stray_indices);
   result.geometry.order_kept = grid->order.kind != OrderKind::none;

@@ -31,6 +31,7 @@ std::vector<BandState> starting_states(const CodingKind& kind, float step_m, con
                                        const ReferenceSweep* reference) {
   if (reference != nullptr && same_bands(reference->states, bands)) return reference->states;
   std::vector<BandState> states;
+  states.reserve(bands.size());
   for (const Band& band : bands) states.push_back(state_from_priors(kind, step_m, band));
   return states;
 }

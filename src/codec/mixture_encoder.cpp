@@ -151,7 +151,7 @@ class MixtureEncoder final : public Encoder::Implementation {
   }
 
   EncodedGeometry encode_scattered_sweep(const PointCloud& cloud, ByteWriter& writer,
-                                         FrameStatistics& statistics) {
+                                         FrameStatistics& statistics) const {
     writer.put(SweepCoding::scattered);
     auto points = encode_scattered(cloud.positions, header_.max_error_m);
     put_section(writer, points.bytes);

@@ -32,7 +32,7 @@ struct CodedBand {
 struct BandSetting {
   CodingKind kind;
   const RangeQuantiser& quantiser;
-  const ReferenceImage* reference;  // of the image's size; for predicted frames only
+  const ReferenceImage* reference = nullptr;  // of the image's size; for predicted frames only
   Ingredients ingredients = {};
 };
 

@@ -113,7 +113,9 @@ const ReferenceImage& warp(const SensorModel& model, const SweepGrid& grid, cons
   const CodingGrid coding(model, grid), coding_before(model, reference.grid);
   const WarpTarget target(model, grid, coding);
   const PointMotion motion(T_ref_cur);
-  auto& [points, canvas, image] = memory;
+  WarpedPoints& points = memory.points;
+  WarpCanvas& canvas = memory.canvas;
+  ReferenceImage& image = memory.image;
   points.lay_out(reference.rows, reference.columns);
   canvas.clear(target.rows, target.columns);
   const auto reference_rows = static_cast<std::size_t>(reference.rows);
