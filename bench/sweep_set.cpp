@@ -48,4 +48,10 @@ SweepSet load_sweep_set(const std::vector<std::string>& inputs, const std::strin
   return set;
 }
 
+std::set<std::size_t> sampled_sweeps(std::size_t count, std::size_t parts) {
+  std::set<std::size_t> sample;
+  for (std::size_t k = 0; k < parts; ++k) sample.insert((2 * k + 1) * count / (2 * parts));
+  return sample;
+}
+
 }  // namespace pointreel

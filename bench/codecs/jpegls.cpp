@@ -1,0 +1,60 @@
+// Range images as near-lossless JPEG-LS: finer levels than needed, of which the codec may miss a few.
+#include <charls/charls.h>
+
+#include "codecs/image_codec.h"
+
+namespace pointreel {
+namespace {
+
+// Levels of a third of the step that plain rounding would use, and NEAR 1: the same error.
+constexpr int kNear = 1;
+
+Result<Bytes> encode(const LevelImage& image) {
+  try {
+    charls::jpegls_encoder encoder;
+    encoder
+        .frame_info(
+            {static_cast<std::uint32_t>(image.columns), static_cast<std::uint32_t>(image.rows), 16, 1})
+        .near_lossless(kNear);
+    Bytes bytes(encoder.estimated_destination_size());
+    encoder.destination(bytes);
+    bytes.resize(encoder.encode(image.level));
+    return bytes;
+  } catch (const charls::jpegls_error& error) {
+    return Error{ErrorCode::unsupported, error.what()};
+  }
+}
+
+Result<LevelImage> decode(std::span<const std::uint8_t> bytes) {
+  try {
+    charls::jpegls_decoder decoder;
+    decoder.source(bytes.data(), bytes.size()).read_header();
+    LevelImage image;
+    image.rows = static_cast<int>(decoder.frame_info().height);
+    image.columns = static_cast<int>(decoder.frame_info().width);
+    image.level = decoder.decode<std::vector<std::uint16_t>>();
+    return image;
+  } catch (const charls::jpegls_error& error) {
+    return Error{ErrorCode::corrupt, error.what()};
+  }
+}
+
+Codecs settings() {
+  Codecs codecs;
+  for (const ImageGrid grid : {ImageGrid::sensor, ImageGrid::uniform}) {
+    for (const double bound_m : kBounds_m) {
+      if (grid == ImageGrid::uniform && bound_m < 0.05) continue;
+      ImagerSettings imager = imager_settings(grid, bound_m, 65534);
+      imager.scale.step_m /= 2 * kNear + 1;
+      codecs.push_back(
+          make_image_codec(still_image_coder("JPEG-LS", "NEAR " + std::to_string(kNear), encode, decode),
+                           imager, "levels for " + in_centimetres(bound_m)));
+    }
+  }
+  return codecs;
+}
+
+const CodecRegistration registration("jpegls", settings);
+
+}  // namespace
+}  // namespace pointreel
