@@ -114,7 +114,9 @@ int main(int argc, char** argv) {
   CLI::App app{"Measure every codec there is on the same sweeps, geometry only", "pointreel bench"};
   Arguments arguments;
   app.add_option("INPUT", arguments.inputs, "Sweeps: files, folders, globs");
-  app.add_option("--codecs", arguments.codecs, "Only these, by name (--list has them)")->delimiter(',');
+  app.add_option("--codecs", arguments.codecs, "Only these, by name, with commas (--list has them)")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   app.add_flag("--list", arguments.list, "Say which codecs there are, and why some are not");
   app.add_option("--poses", arguments.poses, "Poses (KITTI or TUM), for method planes in groups");
   app.add_option("--sweeps", arguments.max_sweeps, "Only the first N; 0: all")->capture_default_str();

@@ -36,4 +36,8 @@ SweepSet load_sweep_set(const std::vector<std::string>& inputs, const std::strin
 // The middles of `parts` equal parts of `count` sweeps.
 std::set<std::size_t> sampled_sweeps(std::size_t count, std::size_t parts);
 
+// A simulated sweep begins ahead, and its pose is of then; poses of real drives are of the middle of a sweep,
+// and so is what a whole sweep tells. One pose less.
+std::vector<Pose> poses_in_the_middle(const std::vector<Pose>& T_world_begin);
+
 }  // namespace pointreel

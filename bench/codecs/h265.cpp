@@ -9,8 +9,8 @@ VideoSettings lossless_settings() {
           "libx265",
           "hevc",
           12,
-          {{"preset", "slow"}, {"x265-params", "lossless=1:log-level=none:pools=none:frame-threads=1"}},
-          "slow"};
+          {{"preset", "veryslow"}, {"x265-params", "lossless=1:log-level=none:pools=none:frame-threads=1"}},
+          "veryslow"};
 }
 
 Result<Codecs> settings() {

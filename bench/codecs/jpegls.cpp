@@ -6,16 +6,19 @@
 namespace pointreel {
 namespace {
 
-// Levels of a third of the step that plain rounding would use, and NEAR 1: the same error.
-constexpr int kNear = 1;
+// Levels of 1 / (2 NEAR + 1) of the step that plain rounding would use: the same error. Of NEAR 0, 1 and 4
+// these give the smallest streams.
+int best_near(double bound_m) {
+  return bound_m < 0.05 ? 1 : 4;
+}
 
-Result<Bytes> encode(const LevelImage& image) {
+Result<Bytes> encode(const LevelImage& image, int near) {
   try {
     charls::jpegls_encoder encoder;
     encoder
         .frame_info(
             {static_cast<std::uint32_t>(image.columns), static_cast<std::uint32_t>(image.rows), 16, 1})
-        .near_lossless(kNear);
+        .near_lossless(near);
     Bytes bytes(encoder.estimated_destination_size());
     encoder.destination(bytes);
     bytes.resize(encoder.encode(image.level));
@@ -44,10 +47,13 @@ Codecs settings() {
   for (const ImageGrid grid : {ImageGrid::sensor, ImageGrid::uniform}) {
     for (const double bound_m : kBounds_m) {
       if (grid == ImageGrid::uniform && bound_m < 0.05) continue;
+      const int near = best_near(bound_m);
       ImagerSettings imager = imager_settings(grid, bound_m, 65534);
-      imager.scale.step_m /= 2 * kNear + 1;
+      imager.scale.step_m /= 2 * near + 1;
       codecs.push_back(
-          make_image_codec(still_image_coder("JPEG-LS", "NEAR " + std::to_string(kNear), encode, decode),
+          make_image_codec(still_image_coder(
+                               "JPEG-LS", fmt::format("NEAR {}", near),
+                               [near](const LevelImage& image) { return encode(image, near); }, decode),
                            imager, "levels for " + in_centimetres(bound_m)));
     }
   }

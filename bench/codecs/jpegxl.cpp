@@ -7,7 +7,7 @@
 namespace pointreel {
 namespace {
 
-constexpr int kEffort = 7;
+constexpr int kEffort = 9;
 constexpr JxlPixelFormat kPixels = {1, JXL_TYPE_UINT16, JXL_NATIVE_ENDIAN, 0};
 
 struct Destroy {

@@ -83,8 +83,8 @@ class PclOctree final : public Codec {
 };
 
 const CodecRegistration registration("pcl-octree", [] {
-  // A detail is a byte: voxels of 32 steps were the smallest streams of 8, 16, 32, 64 and 128.
-  constexpr double kStepsOfVoxel = 32;
+  // The smallest streams: 4 steps take up to 40 % more, 8 up to 90 %.
+  constexpr double kStepsOfVoxel = 2;
   Codecs codecs;
   for (const double step_m : {0.01, 0.02, 0.05, 0.1, 0.2})
     codecs.push_back(std::make_unique<PclOctree>(PclSettings{step_m, kStepsOfVoxel * step_m}));

@@ -1,4 +1,5 @@
-// Range images as 16-bit PNG, at zlib's best level.
+// Range images as 16-bit PNG, at zlib's best level. Of the filters, differences to the left alone are as good
+// as a choice for each row, or better.
 #include <png.h>
 
 #include <csetjmp>
@@ -33,7 +34,7 @@ bool write_png(png_structp png, png_infop info, const LevelImage& image, Bytes& 
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.columns), static_cast<png_uint_32>(image.rows), 16,
                PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                PNG_FILTER_TYPE_DEFAULT);
-  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_ALL_FILTERS);
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
   png_write_info(png, info);
   png_set_swap(png);
   for (int row = 0; row < image.rows; ++row)
