@@ -118,9 +118,9 @@ class Tmc3 final : public Codec {
   Tmc3Settings settings_;
 };
 
-// The corner of a cube is sqrt(3) / 2 of its side away from the centre.
+// The corner of a cube is sqrt(3) / 2 of its side away from the centre; whole millimetres may add one.
 Tmc3Settings octree(double max_error_m) {
-  const double cell_m = max_error_m * 2 / std::sqrt(3.0);
+  const double cell_m = (max_error_m - 0.001) * 2 / std::sqrt(3.0);
   return {"G-PCC octree",
           "cells of " + in_centimetres(std::round(cell_m * 1e4) / 1e4),
           {},
@@ -147,7 +147,7 @@ Result<Codecs> settings() {
   if (!program) return Error{ErrorCode::unsupported, "no program tmc3 on PATH"};
   Codecs codecs;
   for (const double bound_m : kBounds_m) codecs.push_back(std::make_unique<Tmc3>(*program, octree(bound_m)));
-  for (const int radius_log2 : {0, 4, 5, 6, 7, 8})
+  for (const int radius_log2 : {0, 3, 4, 5, 6, 7, 8})
     codecs.push_back(std::make_unique<Tmc3>(*program, predictive(radius_log2)));
   return codecs;
 }
