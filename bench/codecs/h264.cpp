@@ -23,7 +23,7 @@ VideoSettings lossy(int crf) {
 Result<Codecs> settings() {
   if (!can_encode(lossless())) return Error{ErrorCode::unsupported, "libavcodec has no 10-bit libx264"};
   // 10 bits hold ranges up to 97 m at 5 cm, and too few below.
-  Codecs codecs = exact_image_codecs([] { return video_coder(lossless()); }, 0.05, kMostLevel);
+  Codecs codecs = bounded_image_codecs([](double) { return video_coder(lossless()); }, 0.05, kMostLevel);
   for (const ImageGrid grid : {ImageGrid::sensor, ImageGrid::uniform}) {
     for (const int crf : {1, 10, 18, 26}) {
       codecs.push_back(make_image_codec(video_coder(lossy(crf)),

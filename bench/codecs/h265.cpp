@@ -17,7 +17,7 @@ Result<Codecs> settings() {
   if (!can_encode(lossless_settings()))
     return Error{ErrorCode::unsupported, "libavcodec has no 12-bit libx265"};
   // 12 bits hold ranges up to 155 m at 2 cm.
-  return exact_image_codecs([] { return video_coder(lossless_settings()); }, 0.02, 4095);
+  return bounded_image_codecs([](double) { return video_coder(lossless_settings()); }, 0.02, 4095);
 }
 
 const CodecRegistration registration("h265", settings);

@@ -133,15 +133,18 @@ std::unique_ptr<Codec> make_image_codec(ImageCoder coder, const ImagerSettings& 
   return std::make_unique<ImageCodec>(std::move(coder), imager, scale_settings);
 }
 
-Codecs exact_image_codecs(const std::function<ImageCoder()>& coder, double least_bound_m,
-                          std::uint16_t most) {
+Codecs bounded_image_codecs(const std::function<ImageCoder(double bound_m)>& coder, double least_bound_m,
+                            std::uint16_t most_level) {
   constexpr double kUniformGridError_m = 0.05;
   Codecs codecs;
   for (const ImageGrid grid : {ImageGrid::sensor, ImageGrid::uniform}) {
     for (const double bound_m : kBounds_m) {
       if (bound_m < least_bound_m || (grid == ImageGrid::uniform && bound_m < kUniformGridError_m)) continue;
-      codecs.push_back(make_image_codec(coder(), imager_settings(grid, bound_m, most),
-                                        "levels for " + in_centimetres(bound_m)));
+      ImageCoder image_coder = coder(bound_m);
+      ImagerSettings imager = imager_settings(grid, bound_m, most_level);
+      imager.scale.step_m /= 2 * image_coder.near + 1;
+      codecs.push_back(
+          make_image_codec(std::move(image_coder), imager, "levels for " + in_centimetres(bound_m)));
     }
   }
   return codecs;

@@ -32,15 +32,18 @@ struct ImageCoder {
   std::function<std::unique_ptr<ImageEncoder>(int threads)> encoder;
   std::function<std::unique_ptr<ImageDecoder>(int threads)> decoder;
   bool uses_threads = false;
+  int near = 0;  // levels that it may be off by
 };
 
 // `scale_settings`: what the levels are, for settings().
 std::unique_ptr<Codec> make_image_codec(ImageCoder coder, const ImagerSettings& imager,
                                         const std::string& scale_settings);
 
-// A coder of levels that it keeps exactly, on both grids at all bounds from `least_bound_m` on; from 5 cm on
-// the uniform grid, whose own rounding is larger than anything below.
-Codecs exact_image_codecs(const std::function<ImageCoder()>& coder, double least_bound_m, std::uint16_t most);
+// A coder that keeps levels, exactly or to `near` of them, on both grids at all bounds from `least_bound_m`
+// on; from 5 cm on the uniform grid, whose own rounding is larger than anything below. `coder` is asked for
+// each bound.
+Codecs bounded_image_codecs(const std::function<ImageCoder(double bound_m)>& coder, double least_bound_m,
+                            std::uint16_t most_level);
 
 // Still images: one function each way.
 using EncodeImage = std::function<Result<Bytes>(const LevelImage&)>;

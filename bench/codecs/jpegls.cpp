@@ -6,8 +6,7 @@
 namespace pointreel {
 namespace {
 
-// Levels of 1 / (2 NEAR + 1) of the step that plain rounding would use: the same error. Of NEAR 0, 1 and 4
-// these give the smallest streams.
+// Of NEAR 0, 1 and 4, each with levels as much finer, these give the smallest streams.
 int best_near(double bound_m) {
   return bound_m < 0.05 ? 1 : 4;
 }
@@ -42,25 +41,16 @@ Result<LevelImage> decode(std::span<const std::uint8_t> bytes) {
   }
 }
 
-Codecs settings() {
-  Codecs codecs;
-  for (const ImageGrid grid : {ImageGrid::sensor, ImageGrid::uniform}) {
-    for (const double bound_m : kBounds_m) {
-      if (grid == ImageGrid::uniform && bound_m < 0.05) continue;
-      const int near = best_near(bound_m);
-      ImagerSettings imager = imager_settings(grid, bound_m, 65534);
-      imager.scale.step_m /= 2 * near + 1;
-      codecs.push_back(
-          make_image_codec(still_image_coder(
-                               "JPEG-LS", fmt::format("NEAR {}", near),
-                               [near](const LevelImage& image) { return encode(image, near); }, decode),
-                           imager, "levels for " + in_centimetres(bound_m)));
-    }
-  }
-  return codecs;
+ImageCoder coder(double bound_m) {
+  const int near = best_near(bound_m);
+  ImageCoder coder = still_image_coder(
+      "JPEG-LS", fmt::format("NEAR {}", near),
+      [near](const LevelImage& image) { return encode(image, near); }, decode);
+  coder.near = near;
+  return coder;
 }
 
-const CodecRegistration registration("jpegls", settings);
+const CodecRegistration registration("jpegls", [] { return bounded_image_codecs(coder, 0, 65534); });
 
 }  // namespace
 }  // namespace pointreel

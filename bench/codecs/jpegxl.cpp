@@ -79,9 +79,11 @@ Result<LevelImage> decode(std::span<const std::uint8_t> bytes) {
 }
 
 const CodecRegistration registration("jpegxl", [] {
-  return exact_image_codecs(
-      [] { return still_image_coder("JPEG XL", "effort " + std::to_string(kEffort), encode, decode); }, 0,
-      65535);
+  return bounded_image_codecs(
+      [](double) {
+        return still_image_coder("JPEG XL", "effort " + std::to_string(kEffort), encode, decode);
+      },
+      0, 65535);
 });
 
 }  // namespace

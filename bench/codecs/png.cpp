@@ -82,7 +82,8 @@ Result<LevelImage> decode(std::span<const std::uint8_t> bytes) {
 }
 
 const CodecRegistration registration("png", [] {
-  return exact_image_codecs([] { return still_image_coder("PNG-16", "", encode, decode); }, 0, 65535);
+  return bounded_image_codecs([](double) { return still_image_coder("PNG-16", "", encode, decode); }, 0,
+                              65535);
 });
 
 }  // namespace

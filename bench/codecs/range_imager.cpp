@@ -16,8 +16,9 @@ namespace {
 
 constexpr double kAzimuthStep_rad = 0.18 * kPi / 180;
 constexpr double kElevationStep_rad = 0.45 * kPi / 180;
-// Later sweeps may have a few columns, and rows to either side, more than the first.
-constexpr int kSpareColumns = 64;
+// Later sweeps may have more columns than the first, by a twelfth where the car turns or brakes, and more
+// rows to either side. Empty columns cost next to nothing.
+constexpr int kSpareColumnsShare = 6;
 constexpr int kSpareRows = 4;
 
 AngularGrid uniform_grid() {
@@ -98,7 +99,8 @@ Result<SweepImager::Cells> SweepImager::sensor_cells(const PointCloud& sweep, By
   grid_bytes = writer.take();
   if (columns_ == 0) {
     rows_ = static_cast<int>(model_->row_count());
-    columns_ = rounded_up(static_cast<int>(grid_columns) + kSpareColumns, 16);
+    const auto columns = static_cast<int>(grid_columns);
+    columns_ = rounded_up(columns + columns / kSpareColumnsShare, 16);
   }
   if (static_cast<int>(grid_columns) > columns_)
     return Error{ErrorCode::unsupported, "a sweep has many more columns than the first"};
