@@ -17,6 +17,17 @@ def read(folder):
     return series
 
 
+def read_times(folder):
+    """The same; where bench/run made rounds for the times alone (speed.jsonl), those of a setting stand for it."""
+    series = read(folder)
+    path = os.path.join(folder, "speed.jsonl")
+    if not os.path.exists(path):
+        return series
+    with open(path, encoding="utf-8") as lines:
+        newer = {(result["series"], result["settings"]): result for result in map(json.loads, lines)}
+    return {name: [newer.get((name, result["settings"]), result) for result in results] for name, results in series.items()}
+
+
 def max_error_m(result):
     """Each point to its own where that is known, else to the nearest one, the worse direction."""
     if "own_error" in result:

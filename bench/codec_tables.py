@@ -60,24 +60,10 @@ def table_settings(folder):
                      "nearest: mean / rms / p95 / max, cm", "D1 at 59.70 / 30 m, D2 likewise, dB", "MiB"], rows)
 
 
-def speed_results(folder):
-    """By series and setting; rounds made for the times alone replace the others."""
-    results = {(name, r["settings"]): r for name, rs in codec_results.read(folder).items() for r in rs}
-    path = os.path.join(folder, "speed.jsonl")
-    if os.path.exists(path):
-        with open(path, encoding="utf-8") as lines:
-            for r in map(json.loads, lines):
-                results[(r["series"], r["settings"])] = r
-    return results
-
-
 def table_speed(folder):
     """The setting of each series whose error is nearest to 5 cm, or the middle one."""
-    by_series = {}
-    for (name, _), result in speed_results(folder).items():
-        by_series.setdefault(name, []).append(result)
     rows = []
-    for name, results in by_series.items():
+    for name, results in codec_results.read_times(folder).items():
         r = min(results, key=lambda r: abs(math.log(max(codec_results.rms_error_m(r), 1e-4) / 0.025)))
         times = [f"{r[side]['median']:.1f} / {r[side]['p95']:.1f}" for side in ("encode_ms", "decode_ms")]
         rows.append((r["encode_ms"]["median"],

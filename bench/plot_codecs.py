@@ -45,17 +45,20 @@ def legend(figure, axes):
     figure.legend(handles, labels, loc="center left", bbox_to_anchor=(1, 0.5), fontsize=8, frameon=False)
 
 
-def main():
-    folder = sys.argv[1]
-    name = os.path.basename(os.path.abspath(folder))
-    series = codec_results.read(folder)
+def in_order(series):
     order = list(COLOURS)
 
     def place(item):
         prefixes = [prefix for prefix in order if item[0].startswith(prefix)]
         return (order.index(max(prefixes, key=len)) if prefixes else len(order), item[0])
 
-    series = dict(sorted(series.items(), key=place))
+    return dict(sorted(series.items(), key=place))
+
+
+def main():
+    folder = sys.argv[1]
+    name = os.path.basename(os.path.abspath(folder))
+    series = in_order(codec_results.read(folder))
     for title, file, error, ticks in (
         ("Rate against the largest error", "rate_max_error", codec_results.max_error_m,
          [0.1, 0.5, 1, 2, 5, 10, 20, 50, 100, 500, 2000]),
@@ -69,6 +72,7 @@ def main():
         legend(figure, axes)
         save(figure, folder, file)
 
+    series = in_order(codec_results.read_times(folder))
     figure, both = plt.subplots(1, 2, figsize=(12, 5.5), layout="constrained", sharey=True)
     for axes, side in zip(both, ("encode", "decode")):
         draw(axes, series, lambda result, side=side: result[f"{side}_ms"]["median"], "ms a sweep, median")

@@ -80,6 +80,18 @@ void write_line(std::ostream& out, const std::string& series, const std::string&
   }
 }
 
+double bits_per_point(const CodecPass& pass, std::size_t points) {
+  std::uint64_t bytes = 0;
+  for (const Chunk& chunk : pass.chunks) bytes += chunk.bytes.size();
+  return 8.0 * static_cast<double>(bytes) / static_cast<double>(points);
+}
+
+// The first sweep takes more than those that are predicted from it, but hardly twice as much.
+bool far_too_large(const Codec& codec, const SweepSet& set, const DriveContext& drive, double most_bpp) {
+  const CodecPass pass = run_codec(codec, {set.sweeps.front()}, drive);
+  return !pass.failure && bits_per_point(pass, set.sweeps.front().size()) > 2 * most_bpp;
+}
+
 void run(const Arguments& arguments) {
   SweepSet set = load_sweep_set(arguments.inputs, arguments.poses, "", arguments.max_sweeps);
   if (arguments.poses_at_begin) set.poses = poses_in_the_middle(set.poses);
@@ -102,14 +114,13 @@ void run(const Arguments& arguments) {
     const Codec& codec = *codecs[i].codec;
     progress.advance_to(i);
     if (std::count(arguments.without.begin(), arguments.without.end(), codec.series()) > 0) continue;
+    if (far_too_large(codec, set, drive, arguments.most_bpp)) continue;
     const CodecPass pass = run_codec(codec, set.sweeps, drive);
     if (pass.failure) {
       print_note(fmt::format("{}, {}: {}", codec.series(), codec.settings(), pass.failure->message));
       continue;
     }
-    std::uint64_t bytes = 0;
-    for (const Chunk& chunk : pass.chunks) bytes += chunk.bytes.size();
-    const double bpp = 8.0 * static_cast<double>(bytes) / static_cast<double>(set.points);
+    const double bpp = bits_per_point(pass, set.points);
     if (bpp > arguments.most_bpp) continue;
     write_line(out, codec.series(), codec.settings(), bpp, drifts_of(pass.decoded, set.poses, arguments));
   }
