@@ -72,10 +72,10 @@ def table_speed(folder):
                     [row for _, row in sorted(rows)])
 
 
-def table_registration(folder):
+def table_registration(folder, file="registration.jsonl"):
     """Error with its standard deviation over the seeds; in brackets the mean difference to the original's."""
     results, original = {}, {}
-    with open(os.path.join(folder, "registration.jsonl"), encoding="utf-8") as lines:
+    with open(os.path.join(folder, file), encoding="utf-8") as lines:
         for r in map(json.loads, lines):
             if r["series"] == "original":
                 original[r["method"]] = r
@@ -99,8 +99,12 @@ def table_registration(folder):
     return markdown(header, rows)
 
 
+def table_registration_motion_unknown(folder):
+    return table_registration(folder, "registration_motion_unknown.jsonl")
+
+
 TABLES = {"equal-error": table_equal_error, "settings": table_settings, "speed": table_speed,
-          "registration": table_registration}
+          "registration": table_registration, "registration-motion-unknown": table_registration_motion_unknown}
 
 
 def main():

@@ -31,7 +31,7 @@ struct Arguments {
   std::size_t max_sweeps = 0;
   int seeds = 4;
   double voxel_m = 0.5, farthest_m = 1, most_bpp = 8;
-  bool poses_at_begin = false;
+  bool poses_at_begin = false, motion_unknown = false;
 };
 
 constexpr PclMethod kMethods[] = {PclMethod::point_to_plane, PclMethod::generalised};
@@ -108,7 +108,9 @@ void run(const Arguments& arguments) {
 
   write_line(out, "original", "", 96, drifts_of(set.sweeps, set.poses, arguments));
   // As `pointreel bench` gives them to the codecs.
-  const DriveContext drive{set.poses, resolve_threads(0)};
+  const DriveContext drive{
+      arguments.motion_unknown ? std::span<const Pose>() : std::span<const Pose>(set.poses),
+      resolve_threads(0)};
   Progress progress("registering", codecs.size());
   for (std::size_t i = 0; i < codecs.size(); ++i) {
     const Codec& codec = *codecs[i].codec;
@@ -139,6 +141,7 @@ int main(int argc, char** argv) {
   app.add_option("--poses", arguments.poses, "The true poses (KITTI or TUM)")->required();
   app.add_flag("--poses-at-begin", arguments.poses_at_begin,
                "They are of the begin of each sweep, not of its middle");
+  app.add_flag("--motion-unknown", arguments.motion_unknown, "The codecs are not given the true poses");
   app.add_option("-o,--output", arguments.output, "Lines of JSON: one a codec, setting and method")
       ->required();
   app.add_option("--codecs", arguments.codecs, "Only these, by name, with commas")

@@ -11,8 +11,8 @@ namespace pointreel {
 
 class ReelCodec final : public Codec {
  public:
-  ReelCodec(std::string series, std::string settings, const EncoderOptions& options)
-      : series_(std::move(series)), settings_(std::move(settings)), options_(options) {}
+  ReelCodec(std::string series, std::string settings, EncoderOptions options)
+      : series_(std::move(series)), settings_(std::move(settings)), options_(std::move(options)) {}
 
   std::string series() const override { return series_; }
   std::string settings() const override { return settings_; }
