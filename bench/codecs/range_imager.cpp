@@ -16,9 +16,8 @@ namespace {
 
 constexpr double kAzimuthStep_rad = 0.18 * kPi / 180;
 constexpr double kElevationStep_rad = 0.45 * kPi / 180;
-// Later sweeps may have more columns than the first, by a twelfth where the car turns or brakes, and more
-// rows to either side. Empty columns cost next to nothing.
-constexpr int kSpareColumnsShare = 6;
+// Later sweeps may have a few columns, and rows to either side, more than the first.
+constexpr int kSpareColumns = 64;
 constexpr int kSpareRows = 4;
 
 AngularGrid uniform_grid() {
@@ -97,13 +96,12 @@ Result<SweepImager::Cells> SweepImager::sensor_cells(const PointCloud& sweep, By
   const auto grid_columns = gridded.grid.column_count();
   put_section(writer, encode_sweep_grid(*model_, gridded.grid));
   grid_bytes = writer.take();
+  const auto columns = static_cast<int>(grid_columns);
   if (columns_ == 0) {
     rows_ = static_cast<int>(model_->row_count());
-    const auto columns = static_cast<int>(grid_columns);
-    columns_ = rounded_up(columns + columns / kSpareColumnsShare, 16);
+    columns_ = rounded_up(columns + kSpareColumns, 16);
   }
-  if (static_cast<int>(grid_columns) > columns_)
-    return Error{ErrorCode::unsupported, "a sweep has many more columns than the first"};
+  columns_ = std::max(columns_, rounded_up(columns, 16));
 
   Cells cells{{0, rows_, columns_, std::vector<float>(static_cast<std::size_t>(rows_) * columns_)}, {}};
   const auto shifts = column_shift_of_row(*model_, gridded.grid);
@@ -168,6 +166,7 @@ Result<ImagedSweep> SweepImager::image_of(const PointCloud& sweep) {
   }
   fill_gaps(cells->ranges, imaged.image);
   ByteWriter writer;
+  writer.put(static_cast<std::uint16_t>(columns_));
   put_section(writer, grid_bytes);
   put_section(writer, encode_mask(cells->ranges));
   put_section(writer, {reinterpret_cast<const std::uint8_t*>(cells->beside.data()),
@@ -178,13 +177,21 @@ Result<ImagedSweep> SweepImager::image_of(const PointCloud& sweep) {
 
 Result<PointCloud> SweepImager::sweep_of(const LevelImage& image, std::span<const std::uint8_t> side) {
   ByteReader reader(side);
+  const int columns = reader.get<std::uint16_t>();
+  if (columns > image.columns) return Error{ErrorCode::corrupt, "the image is too narrow"};
   ByteReader grid_reader(get_section(reader));
   BitDecoder mask_coder(get_section(reader));
   const auto beside = get_section(reader);
-  RangeImage ranges{0, image.rows, image.columns, std::vector<float>(image.level.size())};
+  RangeImage ranges{
+      0, image.rows, columns,
+      std::vector<float>(static_cast<std::size_t>(image.rows) * static_cast<std::size_t>(columns))};
   code_occupancy(mask_coder, ranges, nullptr);
-  for (std::size_t cell = 0; cell < ranges.range_m.size(); ++cell) {
-    if (ranges.range_m[cell] > 0) ranges.range_m[cell] = settings_.scale.range_of(image.level[cell]);
+  for (int row = 0; row < ranges.rows; ++row) {
+    const std::uint16_t* level =
+        &image.level[static_cast<std::size_t>(row) * static_cast<std::size_t>(image.columns)];
+    for (int column = 0; column < columns; ++column) {
+      if (ranges.occupied(row, column)) ranges.at(row, column) = settings_.scale.range_of(level[column]);
+    }
   }
 
   PointCloud cloud;

@@ -53,7 +53,8 @@ struct ImagedSweep {
   Bytes side;        // grid, hit mask, points that are not in the image
 };
 
-// All images of a stream have the size of the first. Another SweepImager gets the sweeps back.
+// Images of the sensor grid may become wider than the first; their rows stay. Another SweepImager gets the
+// sweeps back, from images that may have been made wider still.
 class SweepImager {
  public:
   explicit SweepImager(const ImagerSettings& settings);

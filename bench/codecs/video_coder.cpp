@@ -6,12 +6,16 @@ extern "C" {
 #include <libavutil/opt.h>
 }
 
+#include <algorithm>
 #include <array>
+#include <cstring>
 
 namespace pointreel {
 namespace {
 
 constexpr int kSweepsPerKeyFrame = 30;
+// All frames have one size, wider than the first image: later sweeps may have a twelfth more columns.
+constexpr int kSpareColumnsShare = 6;
 
 struct Free {
   void operator()(AVCodecContext* context) const { avcodec_free_context(&context); }
@@ -55,20 +59,26 @@ class VideoEncoder final : public ImageEncoder {
 
   Result<std::vector<Bytes>> encode(const LevelImage& image) override {
     if (!context_) {
-      auto context = open_encoder(settings_, image.columns, image.rows, threads_);
+      const int columns = (image.columns + image.columns / kSpareColumnsShare + 15) / 16 * 16;
+      auto context = open_encoder(settings_, columns, image.rows, threads_);
       if (!context) return context.error();
       context_ = *std::move(context);
     }
+    if (image.columns > context_->width || image.rows != context_->height)
+      return Error{ErrorCode::unsupported, "a sweep has many more columns than the first"};
     const Frame frame(av_frame_alloc());
-    frame->width = image.columns;
-    frame->height = image.rows;
+    frame->width = context_->width;
+    frame->height = context_->height;
     frame->format = context_->pix_fmt;
     frame->pts = next_pts_++;
     if (const int code = av_frame_get_buffer(frame.get(), 0); code < 0) return failure("no frame", code);
     const auto columns = static_cast<std::size_t>(image.columns);
+    const auto width = static_cast<std::size_t>(frame->width);
     for (std::size_t row = 0; row < static_cast<std::size_t>(image.rows); ++row) {
-      std::memcpy(frame->data[0] + row * static_cast<std::size_t>(frame->linesize[0]),
-                  &image.level[row * columns], columns * sizeof(std::uint16_t));
+      auto* line = reinterpret_cast<std::uint16_t*>(frame->data[0] +
+                                                    row * static_cast<std::size_t>(frame->linesize[0]));
+      std::copy_n(&image.level[row * columns], columns, line);
+      std::fill(line + columns, line + width, line[columns - 1]);
     }
     return packets_after(frame.get());
   }
