@@ -4,10 +4,10 @@ import math
 import os
 
 
-def read(folder):
+def read(folder, file="codecs.jsonl"):
     """Series by name, each a list of results by rate; those that failed are left out."""
     series = {}
-    with open(os.path.join(folder, "codecs.jsonl"), encoding="utf-8") as lines:
+    with open(os.path.join(folder, file), encoding="utf-8") as lines:
         for line in lines:
             result = json.loads(line)
             if not result["failures"]:
@@ -15,17 +15,6 @@ def read(folder):
     for results in series.values():
         results.sort(key=lambda result: result["bits_per_point"])
     return series
-
-
-def read_times(folder):
-    """The same; where bench/run made rounds for the times alone (speed.jsonl), those of a setting stand for it."""
-    series = read(folder)
-    path = os.path.join(folder, "speed.jsonl")
-    if not os.path.exists(path):
-        return series
-    with open(path, encoding="utf-8") as lines:
-        newer = {(result["series"], result["settings"]): result for result in map(json.loads, lines)}
-    return {name: [newer.get((name, result["settings"]), result) for result in results] for name, results in series.items()}
 
 
 def max_error_m(result):

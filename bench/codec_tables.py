@@ -60,16 +60,20 @@ def table_settings(folder):
                      "nearest: mean / rms / p95 / max, cm", "D1 at 59.70 / 30 m, D2 likewise, dB", "MiB"], rows)
 
 
-def table_speed(folder):
+def table_speed(folder, file="codecs.jsonl"):
     """The setting of each series whose error is nearest to 5 cm, or the middle one."""
     rows = []
-    for name, results in codec_results.read_times(folder).items():
+    for name, results in codec_results.read(folder, file).items():
         r = min(results, key=lambda r: abs(math.log(max(codec_results.rms_error_m(r), 1e-4) / 0.025)))
         times = [f"{r[side]['median']:.1f} / {r[side]['p95']:.1f}" for side in ("encode_ms", "decode_ms")]
         rows.append((r["encode_ms"]["median"],
                      [name, r["settings"], f"{r['bits_per_point']:.2f}"] + times + [str(r["rounds"])]))
     return markdown(["codec", "settings", "bpp", "encode ms, median / p95", "decode ms, median / p95", "rounds"],
                     [row for _, row in sorted(rows)])
+
+
+def table_speed_rounds(folder):
+    return table_speed(folder, "speed.jsonl")
 
 
 def table_registration(folder, file="registration.jsonl"):
@@ -103,8 +107,14 @@ def table_registration_motion_unknown(folder):
     return table_registration(folder, "registration_motion_unknown.jsonl")
 
 
-TABLES = {"equal-error": table_equal_error, "settings": table_settings, "speed": table_speed,
-          "registration": table_registration, "registration-motion-unknown": table_registration_motion_unknown}
+TABLES = {
+    "equal-error": table_equal_error,
+    "settings": table_settings,
+    "speed": table_speed,
+    "speed-rounds": table_speed_rounds,
+    "registration": table_registration,
+    "registration-motion-unknown": table_registration_motion_unknown,
+}
 
 
 def main():

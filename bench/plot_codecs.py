@@ -72,7 +72,6 @@ def main():
         legend(figure, axes)
         save(figure, folder, file)
 
-    series = in_order(codec_results.read_times(folder))
     figure, both = plt.subplots(1, 2, figsize=(12, 5.5), layout="constrained", sharey=True)
     for axes, side in zip(both, ("encode", "decode")):
         draw(axes, series, lambda result, side=side: result[f"{side}_ms"]["median"], "ms a sweep, median")

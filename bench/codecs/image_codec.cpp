@@ -150,7 +150,8 @@ Codecs bounded_image_codecs(const std::function<ImageCoder(double bound_m)>& cod
   return codecs;
 }
 
-ImageCoder still_image_coder(std::string name, std::string settings, EncodeImage encode, DecodeImage decode) {
+ImageCoder still_image_coder(std::string name, std::string settings, const EncodeImage& encode,
+                             const DecodeImage& decode) {
   return {std::move(name), std::move(settings),
           [encode](int) { return std::make_unique<StillEncoder>(encode); },
           [decode](int) { return std::make_unique<StillDecoder>(decode); }};

@@ -48,6 +48,7 @@ Codecs bounded_image_codecs(const std::function<ImageCoder(double bound_m)>& cod
 // Still images: one function each way.
 using EncodeImage = std::function<Result<Bytes>(const LevelImage&)>;
 using DecodeImage = std::function<Result<LevelImage>(std::span<const std::uint8_t>)>;
-ImageCoder still_image_coder(std::string name, std::string settings, EncodeImage encode, DecodeImage decode);
+ImageCoder still_image_coder(std::string name, std::string settings, const EncodeImage& encode,
+                             const DecodeImage& decode);
 
 }  // namespace pointreel

@@ -106,6 +106,7 @@ Result<SweepImager::Cells> SweepImager::sensor_cells(const PointCloud& sweep, By
   Cells cells{{0, rows_, columns_, std::vector<float>(static_cast<std::size_t>(rows_) * columns_)}, {}};
   const auto shifts = column_shift_of_row(*model_, gridded.grid);
   std::vector<std::vector<std::int32_t>> image_column;
+  image_column.reserve(shifts.size());
   for (const std::int32_t shift : shifts) image_column.push_back(image_columns(shift, grid_columns));
   for (std::size_t i = 0; i < sweep.size(); ++i) {
     const auto cell = static_cast<std::size_t>(gridded.cell_of_point[i]);

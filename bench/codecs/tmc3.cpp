@@ -2,6 +2,7 @@
 // in angular mode with the laser table of our own sensor model. A process a sweep each way; coordinates in
 // whole millimetres.
 #include <cmath>
+#include <ranges>
 
 #include "codecs/bounds.h"
 #include "codecs/program.h"
@@ -17,10 +18,10 @@ constexpr std::uint32_t kTicksPerTurn = 4000;  // of a sensor whose own are not 
 std::vector<std::string> laser_table(const SensorModel& model, int azimuth_log2) {
   const std::uint32_t ticks_per_turn = model.ticks_per_turn > 0 ? model.ticks_per_turn : kTicksPerTurn;
   std::string slopes, heights, ticks;
-  for (auto row = model.rows.rbegin(); row != model.rows.rend(); ++row) {
+  for (const RowModel& row : model.rows | std::views::reverse) {
     const char* comma = slopes.empty() ? "" : ", ";
-    slopes += fmt::format("{}{:.6f}", comma, row->slope);
-    heights += fmt::format("{}{:.3f}", comma, -1000 * row->offset_m);
+    slopes += fmt::format("{}{:.6f}", comma, row.slope);
+    heights += fmt::format("{}{:.3f}", comma, -1000 * row.offset_m);
     ticks += fmt::format("{}{}", comma, ticks_per_turn);
   }
   return {"--angularEnabled=1",

@@ -15,6 +15,8 @@ class NearestPoints {
   // `points` are finite and outlive this.
   explicit NearestPoints(std::span<const Point3f> points);
   ~NearestPoints();
+  NearestPoints(const NearestPoints&) = delete;
+  NearestPoints& operator=(const NearestPoints&) = delete;
   NearestPoints(NearestPoints&&) noexcept;
   NearestPoints& operator=(NearestPoints&&) noexcept;
 
