@@ -4,7 +4,7 @@
 source "$(dirname "$0")/support.sh" "$@"
 
 run 0 --help
-for verb in encode decode info verify simulate; do says stdout "  $verb "; done
+for verb in encode decode info verify simulate bench; do says stdout "  $verb "; done
 says stdout "Exit codes: 0 done, 1 failed, 2 wrong arguments, 3 finished with data loss"
 for verb in encode decode info verify simulate; do
   run 0 "$verb" --help
