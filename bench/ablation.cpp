@@ -41,7 +41,7 @@ Bits bits_of(const std::vector<TrainingDrive>& drives, const CodingKind& kind, f
       const CodingKind this_kind{kind.predicted && counts, kind.effort};
       ReferenceImage reference;
       if (this_kind.predicted) reference = reference_of(drive, i, previous_m);
-      const auto bands = bands_of(image.rows, image.columns);
+      const auto bands = choose_bands(image, step_m);
       if (!variant.keeps_state || i < 2 || states.size() != bands.size()) states.clear();
       for (std::size_t b = 0; b < bands.size(); ++b) {
         if (states.size() == b) {

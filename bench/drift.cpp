@@ -18,6 +18,7 @@ Drift drift_of(const MotionTrack& track, std::span<const Pose> T_world_sensor) {
   Drift drift;
   drift.path_m = travelled_m.back();
   drift.median_cpu_ms = quantile(track.cpu_ms, 0.5);
+  drift.failures = track.failures;
   std::vector<double> step_errors_m;
   int pairs = 0;
   for (std::size_t i = 0; i < T_world_sensor.size(); ++i) {

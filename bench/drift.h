@@ -24,6 +24,7 @@ struct Drift {
   double median_step_error_m = 0;  // from one sweep to the next
   double largest_step_error_m = 0;
   double median_cpu_ms = 0;
+  int failures = 0;
 };
 
 // Truth has one pose more than the track.

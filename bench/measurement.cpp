@@ -1,7 +1,6 @@
 #include "measurement.h"
 
 #include <optional>
-#include <set>
 #include <sstream>
 
 #include "base/parallel.h"
@@ -72,13 +71,6 @@ double decode_reel(EncodedReel& reel, int threads, const Use& use) {
 SweepTimes per_sweep(double encode_ms, double decode_ms, std::size_t sweeps) {
   const auto count = static_cast<double>(sweeps);
   return {encode_ms / count, decode_ms / count};
-}
-
-// The middles of `parts` equal parts of the sweeps.
-std::set<std::size_t> sampled_sweeps(std::size_t count, std::size_t parts) {
-  std::set<std::size_t> sample;
-  for (std::size_t k = 0; k < parts; ++k) sample.insert((2 * k + 1) * count / (2 * parts));
-  return sample;
 }
 
 }  // namespace

@@ -116,7 +116,7 @@ void print_row(const std::string& set, const std::string& method, const MotionTr
   fmt::print("| {} | {} | {:.1f} | {:.2f} | {:.2f} | {:.2f} / {:.2f} | {:.2f} | {} |\n", set, method,
              drift.path_m, drift.translation_percent, drift.rotation_deg_per_100m,
              100 * drift.median_step_error_m, 100 * drift.largest_step_error_m, drift.median_cpu_ms,
-             track.failures);
+             drift.failures);
 }
 
 void compare(const std::string& name, const std::vector<PointCloud>& sweeps, const std::vector<Pose>& truth,
@@ -127,22 +127,12 @@ void compare(const std::string& name, const std::vector<PointCloud>& sweeps, con
     print_row(name, fmt::format("planes, {:g} cm", 100 * bound_m), planes_track(sweeps, bound_m), truth);
 #ifdef POINTREEL_WITH_PCL
   if (!arguments.with_pcl) return;
-  for (const PclIcpSettings& settings : {PclIcpSettings{0.3, 1}, PclIcpSettings{0.1, 0.5}}) {
+  for (const PclIcpSettings& settings :
+       {PclIcpSettings{.voxel_m = 0.3, .farthest_m = 1}, PclIcpSettings{.voxel_m = 0.1, .farthest_m = 0.5}}) {
     print_row(name, fmt::format("PCL, {} m voxels", settings.voxel_m), pcl_icp_track(sweeps, settings),
               truth);
   }
 #endif
-}
-
-// A simulated sweep begins ahead; poses of real drives are of the middle of a sweep, and so is what a whole
-// sweep tells.
-std::vector<Pose> poses_in_the_middle(const std::vector<Pose>& T_world_begin) {
-  std::vector<Pose> T_world_middle;
-  for (std::size_t i = 0; i + 1 < T_world_begin.size(); ++i) {
-    const TimedPose ends[] = {{0, T_world_begin[i]}, {1, T_world_begin[i + 1]}};
-    T_world_middle.push_back(interpolate_pose(ends, 0.5));
-  }
-  return T_world_middle;
 }
 
 void compare_simulated(const Arguments& arguments) {

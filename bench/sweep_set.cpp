@@ -48,4 +48,19 @@ SweepSet load_sweep_set(const std::vector<std::string>& inputs, const std::strin
   return set;
 }
 
+std::set<std::size_t> sampled_sweeps(std::size_t count, std::size_t parts) {
+  std::set<std::size_t> sample;
+  for (std::size_t k = 0; k < parts; ++k) sample.insert((2 * k + 1) * count / (2 * parts));
+  return sample;
+}
+
+std::vector<Pose> poses_in_the_middle(const std::vector<Pose>& T_world_begin) {
+  std::vector<Pose> T_world_middle;
+  for (std::size_t i = 0; i + 1 < T_world_begin.size(); ++i) {
+    const TimedPose ends[] = {{0, T_world_begin[i]}, {1, T_world_begin[i + 1]}};
+    T_world_middle.push_back(interpolate_pose(ends, 0.5));
+  }
+  return T_world_middle;
+}
+
 }  // namespace pointreel

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,5 +32,12 @@ struct SweepSet {
 // inputs. Throws std::runtime_error.
 SweepSet load_sweep_set(const std::vector<std::string>& inputs, const std::string& poses,
                         const std::string& imu, std::size_t max_sweeps);
+
+// The middles of `parts` equal parts of `count` sweeps.
+std::set<std::size_t> sampled_sweeps(std::size_t count, std::size_t parts);
+
+// A simulated sweep begins ahead, and its pose is of then; poses of real drives are of the middle of a sweep,
+// and so is what a whole sweep tells. One pose less.
+std::vector<Pose> poses_in_the_middle(const std::vector<Pose>& T_world_begin);
 
 }  // namespace pointreel

@@ -34,7 +34,7 @@ Means train(const std::vector<TrainingDrive>& drives, const CodingKind& kind, fl
         const bool has_reference = i > 0 && drive.sweeps[i].T_previous_this.has_value();
         if (kind.predicted && has_reference) reference = reference_of(drive, i, previous_m);
         if (!kind.predicted || has_reference) {
-          for (const Band& band : bands_of(image.rows, image.columns)) {
+          for (const Band& band : choose_bands(image, step_m)) {
             encode_band({kind, quantiser, &reference}, band, image, running);
             if (!counts) continue;
             means.ranges.start_visit();

@@ -86,7 +86,8 @@ ReferenceImage reference_of(const TrainingDrive& drive, std::size_t i,
                             const std::vector<float>& previous_range_m) {
   const ReferenceSweep previous =
       reference_from(drive.model, drive.sweeps[i - 1].grid, previous_range_m, {}, 1);
-  return warp(drive.model, drive.sweeps[i].grid, previous, *drive.sweeps[i].T_previous_this, 1);
+  WarpMemory memory;
+  return warp(drive.model, drive.sweeps[i].grid, previous, *drive.sweeps[i].T_previous_this, 1, memory);
 }
 
 }  // namespace pointreel

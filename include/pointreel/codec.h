@@ -84,6 +84,8 @@ struct MixtureOptions {
   int group = 10;  // sweeps per group, 1 to 255: the first decodes by itself and holds the sensor model
   Effort effort = Effort::balanced;
   bool temporal = true;  // sweeps are predicted from the one before, within their group
+  // The motion since then is looked for in the sweeps; otherwise it is that of the poses given, or none.
+  bool register_sweeps = true;
   FieldSelection fields;
 };
 

@@ -28,18 +28,19 @@ void drop_unreachable(const PointCloud& cloud, double max_error_m, GriddedSweep&
   constexpr float kNearestM = 0.01F;
   const auto out_of_reach = [&](std::size_t i) {
     const Point3f& p = cloud.positions[i];
-    return !((std::fabs(p.x) < reach_m) & (std::fabs(p.y) < reach_m) & (std::fabs(p.z) < reach_m) &
-             (sweep.range_m[i] > kNearestM) & (sweep.range_m[i] < reach_m));
+    const float farthest_m =
+        std::max(std::max(std::fabs(p.x), std::fabs(p.y)), std::max(std::fabs(p.z), sweep.range_m[i]));
+    return (farthest_m < reach_m ? 0 : 1) | (sweep.range_m[i] > kNearestM ? 0 : 1);
   };
   // Hardly a block has one.
   constexpr std::size_t kBlock = 64;
   for (std::size_t first = 0; first < cloud.size(); first += kBlock) {
     const std::size_t last = std::min(cloud.size(), first + kBlock);
     int any = 0;
-    for (std::size_t i = first; i < last; ++i) any |= out_of_reach(i) ? 1 : 0;
+    for (std::size_t i = first; i < last; ++i) any |= out_of_reach(i);
     if (any == 0) continue;
     for (std::size_t i = first; i < last; ++i) {
-      if (out_of_reach(i)) sweep.cell_of_point[i] = -1;
+      if (out_of_reach(i) != 0) sweep.cell_of_point[i] = -1;
     }
   }
 }
@@ -202,7 +203,7 @@ std::optional<EarlierPlanes> earlier_planes(const std::optional<Prediction>& pre
 
 Result<GriddedPlanes> decode_gridded_planes(const GeometrySetting& setting, const GriddedPlanes* reference,
                                             ByteReader& reader) {
-  const auto& [model, max_error_m, effort, threads, plane_stage] = setting;
+  const auto& [model, max_error_m, effort, threads, plane_stage, warp_memory] = setting;
   auto head = decode_head(model, reference != nullptr, reader);
   if (!head) return head.error();
   const CodingGrid coding(model, head->grid);
@@ -215,17 +216,18 @@ Result<GriddedPlanes> decode_gridded_planes(const GeometrySetting& setting, cons
   return GriddedPlanes{std::move(head->grid), *std::move(tiles)};
 }
 
-GeometrySetting geometry_setting(const StreamHeader& header, const SensorModel& model, int threads) {
+GeometrySetting geometry_setting(const StreamHeader& header, const SensorModel& model, int threads,
+                                 WarpMemory& warp_memory) {
   const PlaneStage planes = header.method != Method::planes ? PlaneStage::none
                             : header.effort == Effort::fast ? PlaneStage::wherever_it_fits
                                                             : PlaneStage::where_it_pays;
-  return {model, header.max_error_m, header.effort, threads, planes};
+  return {model, header.max_error_m, header.effort, threads, planes, warp_memory};
 }
 
 EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud& cloud, GriddedSweep sweep,
                                std::span<const std::uint32_t> bursts, const Prediction* prediction,
                                ByteWriter& writer, FrameStatistics& statistics) {
-  const auto& [model, max_error_m, effort, threads, plane_stage] = setting;
+  const auto& [model, max_error_m, effort, threads, plane_stage, warp_memory] = setting;
   drop_unreachable(cloud, max_error_m, sweep);
   const RangeQuantiser quantiser = choose_quantiser(model, sweep, max_error_m);
 
@@ -255,7 +257,7 @@ EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud&
     planes = encode_planes({model, sweep.grid, coding, max_error_m, threads, plane_stage},
                            earlier ? &*earlier : nullptr, image, tolerance, image_bytes, statistics);
   }
-  auto states = encode_image({model, sweep.grid, quantiser, effort, threads, planes.range_m},
+  auto states = encode_image({model, sweep.grid, quantiser, effort, threads, warp_memory, planes.range_m},
                              rounded ? &*rounded : nullptr, image, image_bytes, statistics);
 
   // The points as the decoder will have them, in its sequence.
@@ -312,6 +314,7 @@ EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud&
     statistics.order_bits += bits_of(burst_bytes.size());
     encoded.geometry.bursts.assign(bursts.begin(), bursts.end());
   }
+  if (prediction != nullptr) draw_together(warp_memory.image, quantiser.step_m, image);
   encoded.image = {std::move(sweep.grid), std::move(image), std::move(states), std::move(planes.tiles)};
   return encoded;
 }
@@ -319,7 +322,7 @@ EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud&
 Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size_t points_out,
                                        const ReferenceSweep* reference, const PlaneTiles& reference_planes,
                                        ByteReader& reader) {
-  const auto& [model, max_error_m, effort, threads, plane_stage] = setting;
+  const auto& [model, max_error_m, effort, threads, plane_stage, warp_memory] = setting;
   const auto head = decode_head(model, reference != nullptr, reader);
   if (!head) return head.error();
   const SweepGrid* grid = &head->grid;
@@ -337,7 +340,7 @@ Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size
     planes.range_m = ranges_on_planes_m(rays, planes.tiles, threads);
   }
   GridImage image = coding.empty_image();
-  auto states = decode_image({model, *grid, head->quantiser, effort, threads, planes.range_m},
+  auto states = decode_image({model, *grid, head->quantiser, effort, threads, warp_memory, planes.range_m},
                              prediction ? &*prediction : nullptr, reader, image);
   if (!states) return states.error();
 
@@ -374,6 +377,7 @@ Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size
 
   DecodedGeometry result;
   std::vector<std::uint32_t> stray_indices;
+  stray_indices.reserve(strays.size());
   for (const Stray& stray : strays) stray_indices.push_back(stray.index);
   result.geometry = merged(coding, cells, range_of_cell_m, stray_indices);
   result.geometry.order_kept = grid->order.kind != OrderKind::none;
@@ -388,6 +392,7 @@ Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size
     const bool stray = result.geometry.cell_of_point[i] < 0;
     result.positions[i] = stray ? strays[next_stray++].position : positions[cells[next_cell++]];
   }
+  if (reference != nullptr) draw_together(warp_memory.image, head->quantiser.step_m, image);
   result.image = {*grid, std::move(image), *std::move(states), std::move(planes.tiles)};
   return result;
 }

@@ -26,7 +26,8 @@ struct CodedGeometry {
   std::vector<std::uint32_t> bursts;  // sizes, where the output order has yet to be sorted by them
 };
 
-// The decoded ranges on their grid: what the next sweep can be predicted from.
+// What the next sweep can be predicted from: the decoded ranges on their grid, in predicted frames drawn
+// towards what those before said (predict/reference_sweep.h).
 struct CodedImage {
   SweepGrid grid;
   GridImage image;                // empty for a sweep without a grid
@@ -37,13 +38,15 @@ struct CodedImage {
 // What both sides know of the sensor and the stream.
 struct GeometrySetting {
   const SensorModel& model;
-  double max_error_m = 0.02;
-  Effort effort = Effort::balanced;
-  int threads = 1;
-  PlaneStage planes = PlaneStage::none;
+  double max_error_m;
+  Effort effort;
+  int threads;
+  PlaneStage planes;
+  WarpMemory& warp_memory;  // of the stream
 };
 
-GeometrySetting geometry_setting(const StreamHeader& header, const SensorModel& model, int threads);
+GeometrySetting geometry_setting(const StreamHeader& header, const SensorModel& model, int threads,
+                                 WarpMemory& warp_memory);
 
 struct EncodedGeometry {
   CodedGeometry geometry;

@@ -10,6 +10,7 @@
 #include "predict/grid_image.h"
 #include "predict/range_quantiser.h"
 #include "predict/reference_sweep.h"
+#include "predict/warp.h"
 
 namespace pointreel {
 
@@ -18,9 +19,10 @@ struct ImageSetting {
   const SensorModel& model;
   const SweepGrid& grid;
   const RangeQuantiser& quantiser;
-  Effort effort = Effort::balanced;
-  int threads = 1;
-  std::span<const float> known_range_m = {};  // BandSetting::known_range_m
+  Effort effort;
+  int threads;
+  WarpMemory& warp_memory;               // of the stream
+  std::span<const float> known_range_m;  // BandSetting::known_range_m
 };
 
 // The earlier sweep that a predicted frame starts from, and the motion since, as the stream has it.

@@ -43,7 +43,7 @@ class MixtureDecoder final : public Decoder::Implementation {
     const auto coding = begin(packet, planes_frame_, reader);
     if (!coding) return coding.error();
     if (*coding == SweepCoding::scattered) return SweepPlanes{packet.frame, {}, {}};
-    auto planes = decode_gridded_planes(geometry_setting(header_, model_, threads_),
+    auto planes = decode_gridded_planes(geometry_setting(header_, model_, threads_, warp_memory_),
                                         *coding == SweepCoding::predicted ? &last_planes_ : nullptr, reader);
     if (!planes) return planes.error();
     last_planes_ = *std::move(planes);
@@ -97,11 +97,12 @@ class MixtureDecoder final : public Decoder::Implementation {
       reference =
           reference_from(model_, last_image_.grid, last_image_.image.range_m, last_image_.states, threads_);
 
-    auto geometry = coding == SweepCoding::scattered
-                        ? decode_scattered_sweep(packet, reader)
-                        : decode_gridded(geometry_setting(header_, model_, threads_), packet.points_out,
-                                         coding == SweepCoding::predicted ? &reference : nullptr,
-                                         last_image_.planes, reader);
+    auto geometry =
+        coding == SweepCoding::scattered
+            ? decode_scattered_sweep(packet, reader)
+            : decode_gridded(geometry_setting(header_, model_, threads_, warp_memory_), packet.points_out,
+                             coding == SweepCoding::predicted ? &reference : nullptr, last_image_.planes,
+                             reader);
     if (!geometry) return geometry.error();
     const std::size_t field_bytes = ByteReader(reader).rest().size();  // a copy: rest() takes them
     for (const Point3f& position : geometry->positions) {
@@ -151,6 +152,7 @@ class MixtureDecoder final : public Decoder::Implementation {
   std::optional<std::uint32_t> reference_frame_;
   GriddedPlanes last_planes_;  // of the last sweep on the grid, if only those were decoded
   std::optional<std::uint32_t> planes_frame_;
+  WarpMemory warp_memory_;
 };
 
 }  // namespace

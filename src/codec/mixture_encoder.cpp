@@ -48,7 +48,8 @@ class MixtureEncoder final : public Encoder::Implementation {
         grid_options_{std::max(kLeastDeviationM, 2 * header.max_error_m), header.max_error_m, threads},
         estimator_(grid_options_),
         // Registration and warping would take longer than all the rest.
-        temporal_(options.temporal && options.effort != Effort::fast) {}
+        temporal_(options.temporal && options.effort != Effort::fast),
+        alignment_(options.register_sweeps) {}
 
   const StreamHeader& header() const override { return header_; }
 
@@ -84,8 +85,9 @@ class MixtureEncoder final : public Encoder::Implementation {
       reference_frame = T_ref_cur ? packet.frame - 1 : *model_frame_;
       const auto prediction =
           T_ref_cur ? std::optional(Prediction{reference_, reference_planes_, *T_ref_cur}) : std::nullopt;
-      encoded = encode_gridded(geometry_setting(header_, *model_, threads_), cloud, *std::move(gridded),
-                               bursts, prediction ? &*prediction : nullptr, writer, packet.statistics);
+      encoded = encode_gridded(geometry_setting(header_, *model_, threads_, warp_memory_), cloud,
+                               *std::move(gridded), bursts, prediction ? &*prediction : nullptr, writer,
+                               packet.statistics);
       ++model_age_;
       if (temporal_ && !starts_group()) {
         reference_ = reference_from(*model_, encoded.image.grid, encoded.image.image.range_m,
@@ -153,7 +155,7 @@ class MixtureEncoder final : public Encoder::Implementation {
   }
 
   EncodedGeometry encode_scattered_sweep(const PointCloud& cloud, ByteWriter& writer,
-                                         FrameStatistics& statistics) {
+                                         FrameStatistics& statistics) const {
     writer.put(SweepCoding::scattered);
     auto points = encode_scattered(cloud.positions, header_.max_error_m);
     put_section(writer, points.bytes);
@@ -178,6 +180,7 @@ class MixtureEncoder final : public Encoder::Implementation {
   SweepAlignment alignment_;
   ReferenceSweep reference_;  // the sweep before, as decoded
   PlaneTiles reference_planes_;
+  WarpMemory warp_memory_;
   int model_age_ = 0;  // sweeps coded with it
   std::uint32_t next_frame_ = 0;
   std::uint32_t next_group_ = 0;

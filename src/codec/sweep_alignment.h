@@ -6,12 +6,16 @@
 #include <vector>
 
 #include "codec/measured_grid.h"
+#include "codec/relative_pose.h"
 #include "motion/registration.h"
 
 namespace pointreel {
 
 class SweepAlignment {
  public:
+  // `registers`: false for the motion of the poses given, or without them none.
+  explicit SweepAlignment(bool registers) : registers_(registers) {}
+
   // Takes the next sweep. Its coordinates to those of the sweep before, before motion compensation; none when
   // it `is_key`, or when the two cannot be registered. Given poses are where the search begins, else the
   // motion before.
@@ -20,6 +24,12 @@ class SweepAlignment {
   // which looks like standing still (docs/REGISTRATION.md).
   std::optional<Pose> follow(const SensorModel& model, const GriddedSweep& sweep,
                              const std::optional<Pose>& T_world_sensor, bool is_key) {
+    if (!registers_) {
+      const auto before = std::exchange(T_world_reference_, T_world_sensor);
+      if (is_key) return std::nullopt;
+      const Pose given = before && T_world_sensor ? before->inverse() * *T_world_sensor : Pose::Identity();
+      return quantised(given) ? std::optional(given) : std::nullopt;
+    }
     MeasuredGrid current(model, sweep.grid);
     auto current_m = ranges_by_cell(model, sweep);
     std::optional<Pose> T_ref_cur;
@@ -38,6 +48,7 @@ class SweepAlignment {
   }
 
  private:
+  bool registers_;
   std::optional<MeasuredGrid> reference_;
   std::vector<float> reference_m_;  // by cell of the sensor grid
   std::optional<Pose> T_world_reference_;

@@ -8,6 +8,7 @@
 #endif
 
 #include <algorithm>
+#include <array>
 
 #include "predict/band_coding.h"
 #include "predict/hit_mask-inl.h"
@@ -43,18 +44,32 @@ bool code_band(Coder& mask_coder, Coder& range_coder, const BandSetting& setting
       // Row r stands at column step - kLag r.
       const int first_row = std::max(0, (step - columns) / kLag + (step >= columns ? 1 : 0));
       const int end_row = std::min(rows, step / kLag + 1);
+      std::array<int, kRows> hit_rows;
+      std::size_t hits = 0;
+      const auto range_of = [&](int row) HWY_ATTR -> float& {
+        return image.range_m[image.index(band.first_row + first + row, step - kLag * row)];
+      };
       for (int row = first_row; row < end_row; ++row) {
+        hit_rows[hits] = row;
         const auto cell = static_cast<std::size_t>(row);
+        if (!mask.code(mask_coder, cell, first + row, range_of(row) > 0)) continue;
         const std::size_t index = image.index(band.first_row + first + row, step - kLag * row);
-        float& range_m = image.range_m[index];
-        if (!mask.code(mask_coder, cell, first + row, range_m > 0)) continue;
         if (known_m != nullptr && known_m[index] > 0) {
-          range_m = ranges.take_known(cell, known_m[index]);
+          image.range_m[index] = ranges.take_known(cell, known_m[index]);
         } else {
-          if (!ranges.has_predicted()) ranges.predict(step, &reference);
-          range_m = ranges.code(range_coder, cell, first + row, range_m);
+          ++hits;
         }
       }
+      const auto for_each_hit = [&](const auto& act) HWY_ATTR {
+        for (std::size_t i = 0; i < hits; ++i) act(hit_rows[i], static_cast<std::size_t>(hit_rows[i]));
+      };
+      if (hits > 0) ranges.predict(step, &reference);
+      for_each_hit([&](int, std::size_t cell) HWY_ATTR { ranges.start(cell); });
+      for_each_hit([&](int row, std::size_t cell) HWY_ATTR {
+        float& range_m = range_of(row);
+        range_m = ranges.code(range_coder, cell, first + row, range_m);
+      });
+      for_each_hit([&](int, std::size_t cell) HWY_ATTR { ranges.learn(cell); });
       ranges.remember(step);
       mask.remember(step, ranges.decoded_m());
       if constexpr (Coder::kDecodes) {

@@ -1,6 +1,5 @@
 #include "predict/band_coding.h"
 
-#include <algorithm>
 #include <string>
 
 // SSE4, AVX2 and NEON carry their weight; AVX-512 is slower here, its wide divisions and square roots are.
@@ -49,19 +48,6 @@ namespace pointreel {
 
 HWY_EXPORT(encode);
 HWY_EXPORT(decode);
-
-std::vector<Band> bands_of(int rows, int columns) {
-  constexpr int kCellsPerBand = 70'000;
-  const int wanted =
-      static_cast<int>((static_cast<std::int64_t>(rows) * columns + kCellsPerBand / 2) / kCellsPerBand);
-  const int count = std::clamp(wanted, 1, std::max(1, rows / 8));
-  std::vector<Band> bands;
-  for (int i = 0; i < count; ++i) {
-    const int first = rows * i / count;
-    bands.push_back({first, rows * (i + 1) / count - first});
-  }
-  return bands;
-}
 
 CodedBand encode_band(const BandSetting& setting, const Band& band, GridImage& image, BandState& state) {
   return HWY_DYNAMIC_DISPATCH(encode)(setting, band, image, state);

@@ -1,5 +1,4 @@
-// Bands: the rows of an image that are coded together, without a look at the others, so that a sweep can be
-// coded by several threads. They are a property of the stream, not of the machine.
+// Codes the bands of an image (bands.h): which cells hold a return, and at which range.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +6,7 @@
 #include <vector>
 
 #include "pointreel/result.h"
+#include "predict/bands.h"
 #include "predict/coding_kind.h"
 #include "predict/grid_image.h"
 #include "predict/hit_mask_state.h"
@@ -16,14 +16,6 @@
 #include "predict/reference_image.h"
 
 namespace pointreel {
-
-struct Band {
-  int first_row = 0;
-  int rows = 0;
-};
-
-// About 70,000 cells each: fewer learn too little, more leave threads idle.
-std::vector<Band> bands_of(int rows, int columns);
 
 // Everything that adapts while a band is coded.
 struct BandState {
@@ -40,7 +32,7 @@ struct CodedBand {
 struct BandSetting {
   CodingKind kind;
   const RangeQuantiser& quantiser;
-  const ReferenceImage* reference;  // of the image's size; for predicted frames only
+  const ReferenceImage* reference = nullptr;  // of the image's size; for predicted frames only
   Ingredients ingredients = {};
   // By cell of the image, or empty: ranges that returns have without being coded; 0: not known.
   std::span<const float> known_range_m = {};

@@ -25,6 +25,9 @@ struct HitMaskState {
       bits[i].resize(i == kRow ? std::max<std::size_t>(rows, 1) * kSlots[i] : kSlots[i]);
   }
 
+  // Of the band: at least 1.
+  std::size_t rows() const { return bits[kRow].size() / kSlots[kRow]; }
+
   std::array<CountedBit, kSlots[kEdges]> sure;          // of cells amid hits
   std::array<std::vector<CountedBit>, kContexts> bits;  // kRow: kSlots for each row
   std::array<MixerWeights<kContexts>, kMixers> mixers;
@@ -36,8 +39,7 @@ void visit_hit_mask_state(State& state, Visitor& visitor) {
   for (auto& bit : state.sure) visitor.bit(bit);
   for (std::size_t i = 0; i < HitMaskState::kContexts; ++i) {
     if (i == HitMaskState::kRow) {
-      constexpr std::size_t kPerRow = HitMaskState::kSlots[HitMaskState::kRow];
-      visitor.bits_by_row(state.bits[i].data(), state.bits[i].size() / kPerRow, kPerRow);
+      visitor.bits_by_row(state.bits[i].data(), state.rows(), HitMaskState::kSlots[HitMaskState::kRow]);
     } else {
       for (auto& bit : state.bits[i]) visitor.bit(bit);
     }

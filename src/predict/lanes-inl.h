@@ -78,6 +78,14 @@ POINTREEL_INLINE Floats<N> load(const float* lanes) {
   return each<N>([&](std::size_t i)
                      HWY_ATTR { return hn::LoadU(typename F::Tag(), lanes + i * F::kPartLanes); });
 }
+// The first `count` of them, then zeros.
+template <std::size_t N>
+POINTREEL_INLINE Floats<N> load_first(const float* lanes, std::size_t count) {
+  if (count >= N) return load<N>(lanes);
+  float padded[N] = {};
+  for (std::size_t i = 0; i < count; ++i) padded[i] = lanes[i];
+  return load<N>(padded);
+}
 template <std::size_t N>
 POINTREEL_INLINE void store(const Floats<N>& a, float* lanes) {
   using F = Floats<N>;
@@ -132,10 +140,23 @@ POINTREEL_INLINE Mask<N> operator<=(const Floats<N>& a, const Floats<N>& b) {
   return result;
 }
 template <std::size_t N>
+POINTREEL_INLINE Mask<N> operator<(const Floats<N>& a, const Floats<N>& b) {
+  Mask<N> result;
+  for (std::size_t i = 0; i < Floats<N>::kParts; ++i) result.part[i] = hn::Lt(a.part[i], b.part[i]);
+  return result;
+}
+template <std::size_t N>
 POINTREEL_INLINE Mask<N> operator&(const Mask<N>& a, const Mask<N>& b) {
   Mask<N> result;
   for (std::size_t i = 0; i < Floats<N>::kParts; ++i) result.part[i] = hn::And(a.part[i], b.part[i]);
   return result;
+}
+template <std::size_t N>
+POINTREEL_INLINE bool any(const Mask<N>& mask) {
+  bool none = true;
+  for (std::size_t i = 0; i < Floats<N>::kParts; ++i)
+    none = none && hn::AllFalse(typename Floats<N>::Tag(), mask.part[i]);
+  return !none;
 }
 template <std::size_t N>
 POINTREEL_INLINE Floats<N> select(const Mask<N>& mask, const Floats<N>& yes, const Floats<N>& no) {
@@ -206,6 +227,10 @@ POINTREEL_INLINE Ints<N> operator-(const Ints<N>& a, const Ints<N>& b) {
   return each_int<N>([&](std::size_t i) HWY_ATTR { return hn::Sub(a.part[i], b.part[i]); });
 }
 template <std::size_t N>
+POINTREEL_INLINE Ints<N> operator*(const Ints<N>& a, const Ints<N>& b) {
+  return each_int<N>([&](std::size_t i) HWY_ATTR { return hn::Mul(a.part[i], b.part[i]); });
+}
+template <std::size_t N>
 POINTREEL_INLINE Ints<N> operator|(const Ints<N>& a, const Ints<N>& b) {
   return each_int<N>([&](std::size_t i) HWY_ATTR { return hn::Or(a.part[i], b.part[i]); });
 }
@@ -257,6 +282,22 @@ POINTREEL_INLINE Ints<N> where(const IntMask<N>& mask, const Ints<N>& a) {  // 0
 template <std::size_t N>
 POINTREEL_INLINE Ints<N> bits_of(const Floats<N>& a) {
   return each_int<N>([&](std::size_t i) HWY_ATTR { return hn::BitCast(typename Ints<N>::Tag(), a.part[i]); });
+}
+template <std::size_t N>
+POINTREEL_INLINE Floats<N> as_floats(const Ints<N>& a) {
+  return each<N>([&](std::size_t i) HWY_ATTR { return hn::ConvertTo(typename Floats<N>::Tag(), a.part[i]); });
+}
+// Towards 0; beyond 32 bits processors disagree.
+template <std::size_t N>
+POINTREEL_INLINE Ints<N> truncated(const Floats<N>& a) {
+  return each_int<N>([&](std::size_t i)
+                         HWY_ATTR { return hn::ConvertTo(typename Ints<N>::Tag(), a.part[i]); });
+}
+// Elements of an array.
+template <std::size_t N>
+POINTREEL_INLINE Floats<N> gather(const float* values, const Ints<N>& index) {
+  return each<N>([&](std::size_t i)
+                     HWY_ATTR { return hn::GatherIndex(typename Floats<N>::Tag(), values, index.part[i]); });
 }
 template <std::size_t N>
 POINTREEL_INLINE Mask<N> as_float_mask(const IntMask<N>& mask) {

@@ -6,7 +6,8 @@
 // F is smooth at 0 and has the tails of Student's t distribution with two degrees of freedom, for a single
 // division (that distribution itself and the logistic function give the same rate, for more work). Weight and
 // scale of an expert depend on its class, the size of its errors at the neighbouring cells, and follow the
-// gradient of the log-likelihood of what is coded.
+// gradient of the log-likelihood of what is coded. All cells of a step of the wavefront see them as they were
+// before it: so the cells' distributions do not wait for each other.
 
 #if defined(POINTREEL_PREDICT_MIXTURE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef POINTREEL_PREDICT_MIXTURE_INL_H_
@@ -38,14 +39,16 @@ class Mixture {
     POINTREEL_INLINE Border() {}
   };
 
+  POINTREEL_INLINE Mixture() {}
   POINTREEL_INLINE Mixture(const MixtureState& state, const BlendedProposals<kExperts>& blended,
                            std::size_t cell)
       : proposals_m_(load_turned<kExperts>(blended.range_m, cell)),
         error_class_(static_cast<std::size_t>(blended.error_class[cell])) {
     const MixtureState::PerClass& per_class = state.classes[error_class_];
     weight_ = load<kExperts>(per_class.weight.data());
-    learnt_inverse_scale_ = load<kExperts>(per_class.inverse_scale.data());
-    inverse_scale_ = learnt_inverse_scale_ * load_turned<kExperts>(blended.inverse_scale, cell);
+    // Learnt relative to the expert's recent error.
+    inverse_scale_ =
+        load<kExperts>(per_class.inverse_scale.data()) * load_turned<kExperts>(blended.inverse_scale, cell);
     per_total_weight_ = per_class.per_total_weight;
   }
 
@@ -60,26 +63,29 @@ class Mixture {
     border.mixed = sum(weight_ * border.signed_cdf) * per_total_weight_;
   }
 
-  // Moves weights and scales towards what would have made the coded bin more likely. With p_k its
-  // probability by expert k and G+, G- at its borders:
+  // Moves weights and scales of the cell's class, as far as other cells have brought them meanwhile, towards
+  // what would have made the coded bin more likely. With p_k its probability by expert k and G+, G- at its
+  // borders:
   //   d log p / d log w_k = r_k - w_k,  r_k = w_k p_k / p
   //   d log p / d log (1/s_k) = r_k (z+ G'(z+) - z- G'(z-)) / p_k
-  HWY_NOINLINE void learn(const Border& lower, const Border& upper, const Ingredients& ingredients,
-                          MixtureState& state) const {
+  POINTREEL_INLINE void learn(const Border& lower, const Border& upper, const Ingredients& ingredients,
+                              MixtureState& state) const {
+    MixtureState::PerClass& per_class = state.classes[error_class_];
+    const Lanes old_weight = load<kExperts>(per_class.weight.data());
     const Lanes one = all<kExperts>(1);
     const Lanes p = larger(upper.signed_cdf - lower.signed_cdf, all<kExperts>(1e-9F));
     const Lanes slope = upper.slope - lower.slope;
     const Lanes steepness = larger(smaller(slope / p, one), all<kExperts>(-4));
-    const Lanes joint = weight_ * p;
+    const Lanes joint = old_weight * p;
     const Lanes responsibility = joint * all<kExperts>(1 / sum(joint));
+    const Lanes share = per_class.per_total_weight * old_weight;
     const Lanes weight =
-        clamped(weight_ * (one + ingredients.weight_rate * (responsibility - per_total_weight_ * weight_)),
-                1e-4F, 1e4F);
-    MixtureState::PerClass& per_class = state.classes[error_class_];
+        clamped(old_weight * (one + ingredients.weight_rate * (responsibility - share)), 1e-4F, 1e4F);
     store(weight, per_class.weight.data());
     per_class.per_total_weight = 1 / sum(weight);
-    store(clamped(learnt_inverse_scale_ * (one + ingredients.scale_rate * responsibility * steepness), 1e-4F,
-                  1e3F),
+    store(clamped(load<kExperts>(per_class.inverse_scale.data()) *
+                      (one + ingredients.scale_rate * responsibility * steepness),
+                  1e-4F, 1e3F),
           per_class.inverse_scale.data());
   }
 
@@ -90,9 +96,8 @@ class Mixture {
 
   Lanes proposals_m_;
   std::size_t error_class_;
-  Lanes weight_;                // their sum is 1 / per_total_weight_
-  Lanes learnt_inverse_scale_;  // relative to the expert's recent error
-  Lanes inverse_scale_;         // per metre
+  Lanes weight_;         // their sum is 1 / per_total_weight_
+  Lanes inverse_scale_;  // per metre
   float per_total_weight_;
 };
 

@@ -1,6 +1,7 @@
 // Predicts and codes the ranges of one band of rows, along the wavefront.
 //
-//   propose -> weigh by recent errors -> mix -> code the bin -> reconstruct -> learn
+//   propose -> weigh by recent errors -> mix -> code the bin -> reconstruct -> learn      (eight cells at a
+//   time)
 //
 // The reconstruction feeds all later predictions, so encoder and decoder see the same.
 
@@ -66,33 +67,37 @@ class RangeModel {
     contexts_ = StepContexts(steps_, cells, step);
     predicted_ = true;
   }
-  bool has_predicted() const { return predicted_; }
 
   // One of them holds a return whose range both sides know.
   POINTREEL_INLINE float take_known(std::size_t cell, float range_m) { return decoded_m_[cell] = range_m; }
 
-  // Codes the range of one of them, which holds a return, and gives back the reconstruction, within half a
-  // step of `range_m` (which a decoder ignores). `row`: in the band.
-  template <class Coder>
-  POINTREEL_INLINE float code(Coder& coder, std::size_t cell, int row, float range_m) {
-    const float step_m = step_m_;
+  // Looks at one of them that holds a return: before any of them is coded.
+  POINTREEL_INLINE void start(std::size_t cell) {
     const float blend_m = blended_.blend_m[cell];
     const float origin_m = on_lattice_ ? on_lattice(blend_m, lattice_phase_m_[cell]) : blend_m;
+    bins_[cell].start(Mixture<kExperts>(state_.mixture, blended_, cell), origin_m, step_m_);
+  }
+
+  // Codes its range and gives back the reconstruction, within half a step of `range_m` (which a decoder
+  // ignores). `row`: in the band.
+  template <class Coder>
+  POINTREEL_INLINE float code(Coder& coder, std::size_t cell, int row, float range_m) {
+    Bins<kExperts>& bins = bins_[cell];
     const StepContext context =
         contexts_.of(cell, row, blended_.error_class[cell], blended_.spread_class[cell]);
-    const std::int32_t wanted = Coder::kDecodes ? 0 : rounded((range_m - origin_m) / step_m);
-    const Mixture<kExperts> mixture(state_.mixture, blended_, cell);
-    StepCoder<Coder, kExperts> step_coder(coder, state_.steps, mixture, context, origin_m, step_m,
-                                          ingredients_.second_stage);
+    const std::int32_t wanted = Coder::kDecodes ? 0 : rounded((range_m - bins.origin_m()) / step_m_);
+    StepCoder<Coder, kExperts> step_coder(coder, state_.steps, bins, context, ingredients_.second_stage);
     const std::int32_t steps = step_coder.code(wanted);
-    mixture.learn(step_coder.lower(), step_coder.upper(), ingredients_, state_.mixture);
-    const float decoded_m = origin_m + static_cast<float>(steps) * step_m;
+    const float decoded_m = bins.origin_m() + static_cast<float>(steps) * step_m_;
     decoded_m_[cell] = decoded_m > kSmallestRangeM ? decoded_m : kSmallestRangeM;
     coded_steps_[cell] = steps < -kMostContextSteps  ? -kMostContextSteps
                          : steps > kMostContextSteps ? kMostContextSteps
                                                      : steps;
     return decoded_m_[cell];
   }
+
+  // What it teaches the mixture: after all of them are coded.
+  POINTREEL_INLINE void learn(std::size_t cell) { bins_[cell].learn(ingredients_, state_.mixture); }
 
   // What the eight decode to; 0 where there is no return.
   POINTREEL_INLINE Float8 decoded_m() const { return load<8>(decoded_m_); }
@@ -146,6 +151,7 @@ class RangeModel {
   Proposals<kExperts> proposals_;
   BlendedProposals<kExperts> blended_;
   StepContexts contexts_;
+  Bins<kExperts> bins_[Wavefront::kRows];
   alignas(32) float decoded_m_[Wavefront::kRows];
   alignas(32) std::int32_t coded_steps_[Wavefront::kRows];
   bool predicted_ = false;

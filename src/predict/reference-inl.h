@@ -7,6 +7,9 @@
 #define POINTREEL_PREDICT_REFERENCE_INL_H_
 #endif
 
+#include <cstddef>
+#include <cstdint>
+
 #include "predict/lanes-inl.h"
 #include "predict/reference_image.h"
 #include "predict/wavefront.h"
@@ -21,15 +24,25 @@ class ReferencePlanes {
   explicit ReferencePlanes(int columns) : range_m(columns), hits(columns) {}
 
   // `first_row`: of the block, in the image; rows beyond it are empty.
-  void load_block(const ReferenceImage& image, int first_row) {
+  HWY_NOINLINE void load_block(const ReferenceImage& image, int first_row) {
+    constexpr std::ptrdiff_t kPitch = SkewedPlane<float>::kPitch;
     for (int row = -SkewedPlane<float>::kRowsAbove; row < Wavefront::kRows + SkewedPlane<float>::kRowsBelow;
          ++row) {
       const int image_row = first_row + row;
-      const bool inside = image_row >= 0 && image_row < image.rows;
-      for (int column = 0; column < image.columns; ++column) {
-        const std::size_t cell = inside ? image.index(image_row, column) : 0;
-        range_m.cell(row, column) = inside ? image.range_m[cell] : 0;
-        hits.cell(row, column) = inside ? image.hits[cell] : 0;
+      float* range_to = range_m.row(row);
+      std::int32_t* hits_to = hits.row(row);
+      if (image_row < 0 || image_row >= image.rows) {
+        for (int column = 0; column < image.columns; ++column) {
+          range_to[column * kPitch] = 0;
+          hits_to[column * kPitch] = 0;
+        }
+      } else {
+        const float* range_from = &image.range_m[image.index(image_row, 0)];
+        const std::uint8_t* hits_from = &image.hits[image.index(image_row, 0)];
+        for (int column = 0; column < image.columns; ++column) {
+          range_to[column * kPitch] = range_from[column];
+          hits_to[column * kPitch] = hits_from[column];
+        }
       }
     }
   }

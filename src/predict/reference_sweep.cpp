@@ -1,12 +1,25 @@
 #include "predict/reference_sweep.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/parallel.h"
 #include "predict/coding_grid.h"
 #include "sensor/ray_table.h"
 
 namespace pointreel {
+
+void draw_together(const ReferenceImage& warped, float step_m, GridImage& decoded) {
+  constexpr float kShare = 0.3F;
+  const float most_m = 0.3F * step_m;          // within the bin, which is sure
+  const float same_m = 1.5F * step_m + 0.02F;  // farther apart it is another surface
+  for (std::size_t i = 0; i < decoded.range_m.size(); ++i) {
+    const float decoded_m = decoded.range_m[i];
+    const float apart_m = warped.range_m[i] - decoded_m;
+    if (!(decoded_m > 0) || !(warped.range_m[i] > 0) || !(std::fabs(apart_m) < same_m)) continue;
+    decoded.range_m[i] = decoded_m + std::min(std::max(kShare * apart_m, -most_m), most_m);
+  }
+}
 
 ReferenceSweep reference_from(const SensorModel& model, const SweepGrid& grid, std::span<const float> range_m,
                               std::vector<BandState> states, int threads) {

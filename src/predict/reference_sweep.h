@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "predict/band_coding.h"
+#include "predict/grid_image.h"
+#include "predict/reference_image.h"
 #include "sensor/sensor_model.h"
 #include "sensor/sweep_grid.h"
 
@@ -21,6 +23,10 @@ struct ReferenceSweep {
   // What coding it has taught, where it was itself predicted: the next sweep goes on from there.
   std::vector<BandState> states;
 };
+
+// Draws the decoded ranges of a predicted sweep towards what the sweeps before it say, as far as both show
+// the same surface: noise and rounding average out over the sweeps. `step_m`: the quantiser's.
+void draw_together(const ReferenceImage& warped, float step_m, GridImage& decoded);
 
 // `range_m`: of the coding image. `states`: at the end of its bands; empty where it was coded by itself.
 ReferenceSweep reference_from(const SensorModel& model, const SweepGrid& grid, std::span<const float> range_m,

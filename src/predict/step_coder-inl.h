@@ -47,51 +47,76 @@ POINTREEL_INLINE bool code_mixed(Coder& coder, bool second_stage, float p,
   return bit;
 }
 
+// The bins of one cell, as far as they are looked at.
+template <std::size_t kExperts>
+class Bins {
+ public:
+  using Border = typename Mixture<kExperts>::Border;
+
+  POINTREEL_INLINE Bins() {}
+  // Bin 0 is the one around `origin_m`.
+  POINTREEL_INLINE void start(const Mixture<kExperts>& mixture, float origin_m, float step_m) {
+    mixture_ = mixture;
+    origin_m_ = origin_m;
+    step_m_ = step_m;
+    lower = &borders_[0];
+    upper = &borders_[1];
+    spare = &borders_[2];
+    evaluate(-1, *lower);
+    evaluate(0, *upper);
+  }
+  // The border between bins `below` and below + 1.
+  POINTREEL_INLINE void evaluate(std::int32_t below, Border& border) const {
+    mixture_.evaluate(origin_m_ + (static_cast<float>(below) + 0.5F) * step_m_, border);
+  }
+  // Learns that the coded bin is the one between `lower` and `upper`.
+  POINTREEL_INLINE void learn(const Ingredients& ingredients, MixtureState& state) const {
+    mixture_.learn(*lower, *upper, ingredients, state);
+  }
+  float origin_m() const { return origin_m_; }
+
+  Border *lower, *upper, *spare;
+
+ private:
+  Border borders_[3];
+  Mixture<kExperts> mixture_;
+  float origin_m_;
+  float step_m_;
+};
+
 // The questions about one cell.
 template <class Coder, std::size_t kExperts>
 class StepCoder {
  public:
   using Border = typename Mixture<kExperts>::Border;
 
-  POINTREEL_INLINE StepCoder(Coder& coder, StepModels& models, const Mixture<kExperts>& mixture,
-                             const StepContext& at, float origin_m, float step_m, bool second_stage)
-      : coder_(coder),
-        models_(models),
-        mixture_(mixture),
-        at_(at),
-        origin_m_(origin_m),
-        step_m_(step_m),
-        second_stage_(second_stage) {}
+  POINTREEL_INLINE StepCoder(Coder& coder, StepModels& models, Bins<kExperts>& bins, const StepContext& at,
+                             bool second_stage)
+      : coder_(coder), models_(models), bins_(bins), at_(at), second_stage_(second_stage) {}
 
-  // Codes `wanted` (ignored when decoding) and returns it. lower() and upper() are then the borders of its
-  // bin.
+  // Codes `wanted` (ignored when decoding) and returns it. The bins' lower and upper are then the borders of
+  // its bin.
   POINTREEL_INLINE std::int32_t code(std::int32_t wanted) {
-    mixture_.evaluate(border_m(-1), *lower_);
-    mixture_.evaluate(border_m(0), *upper_);
-    if (code_zero(0.5F * (upper_->mixed - lower_->mixed), wanted == 0)) return 0;
-    const float tail_below = positive(1 + lower_->mixed);
-    const float tail_above = positive(1 - upper_->mixed);
+    Border*& lower = bins_.lower;
+    Border*& upper = bins_.upper;
+    if (code_zero(0.5F * (upper->mixed - lower->mixed), wanted == 0)) return 0;
+    const float tail_below = positive(1 + lower->mixed);
+    const float tail_above = positive(1 - upper->mixed);
     const bool down = code_sign(tail_below / (tail_below + tail_above), wanted < 0);
     // From here on the inner border is the one nearer to the prediction; the outer one is found anew.
-    std::swap(lower_, upper_);
-    return down ? -code_magnitude<true>(-wanted, tail_below, upper_, lower_)
-                : code_magnitude<false>(wanted, tail_above, lower_, upper_);
+    std::swap(lower, upper);
+    return down ? -code_magnitude<true>(-wanted, tail_below, upper, lower)
+                : code_magnitude<false>(wanted, tail_above, lower, upper);
   }
-  const Border& lower() const { return *lower_; }
-  const Border& upper() const { return *upper_; }
 
  private:
   static constexpr auto kUnarySteps = static_cast<std::int32_t>(StepModels::kUnarySteps);
   static constexpr std::int32_t kMostSteps = 1 << 26;
 
-  // Between bins `below` and below + 1.
-  POINTREEL_INLINE float border_m(std::int32_t below) const {
-    return origin_m_ + (static_cast<float>(below) + 0.5F) * step_m_;
-  }
   // Twice the probability of larger magnitudes than this; its far border is evaluated into `outer`.
   template <bool kDown>
   POINTREEL_INLINE float tail_beyond(std::int32_t magnitude, Border& outer) const {
-    mixture_.evaluate(kDown ? border_m(-magnitude - 1) : border_m(magnitude), outer);
+    bins_.evaluate(kDown ? -magnitude - 1 : magnitude, outer);
     return positive(kDown ? 1 + outer.mixed : 1 - outer.mixed);
   }
 
@@ -115,7 +140,7 @@ class StepCoder {
       width *= 2;
       beyond = tail_beyond<kDown>(magnitude + width - 1, *outer);
     }
-    Border* middle = &borders_[2];
+    Border*& middle = bins_.spare;
     while (width > 1) {
       width /= 2;
       const float from_middle = tail_beyond<kDown>(magnitude + width - 1, *middle);
@@ -155,15 +180,10 @@ class StepCoder {
                       models_.more_mixers[step * 4 + at_.activity / 4], more);
   }
 
-  Border borders_[3];
-  Border* lower_ = &borders_[0];
-  Border* upper_ = &borders_[1];
   Coder& coder_;
   StepModels& models_;
-  const Mixture<kExperts>& mixture_;
+  Bins<kExperts>& bins_;
   const StepContext& at_;
-  float origin_m_;
-  float step_m_;
   bool second_stage_;
 };
 

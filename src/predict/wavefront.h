@@ -8,6 +8,7 @@
 // Arrays are skewed alike: what the lanes of a step need of one neighbour lies side by side in memory.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -31,8 +32,7 @@ class SkewedPlane {
   static constexpr int kPitch = kRowsAbove + Wavefront::kRows + kRowsBelow;  // from one of kDepth to the next
 
   explicit SkewedPlane(int columns, T empty = T())
-      : columns_(columns),
-        values_(static_cast<std::size_t>((Wavefront::steps(columns) + 2 * kBorder) * kDepth * kPitch),
+      : values_(static_cast<std::size_t>((Wavefront::steps(columns) + 2 * kBorder) * kDepth * kPitch),
                 empty) {}
 
   // Values of the eight rows that are `rows_down` rows below those of the step, `columns_right` columns right
@@ -43,20 +43,18 @@ class SkewedPlane {
   const T* at(int step, int columns_right = 0, int rows_down = 0) const {
     return &values_[offset(step, columns_right, rows_down)];
   }
-  // One cell; rows from -kRowsAbove to kRows + kRowsBelow - 1, columns within the margins.
-  T& cell(int row, int column, int depth = 0) {
-    return values_[static_cast<std::size_t>(
-        ((column + Wavefront::kLag * row + kBorder) * kDepth + depth) * kPitch + kRowsAbove + row)];
+  // The first value of a row, from -kRowsAbove to kRows + kRowsBelow - 1; the next one is kDepth * kPitch on.
+  T* row(int row) {
+    return &values_[static_cast<std::size_t>((Wavefront::kLag * row + kBorder) * kDepth * kPitch +
+                                             kRowsAbove + row)];
   }
 
-  // The last rows of this block become those above the next.
+  // The last rows of this block become those above the next: of each cell's values the same ones, a block's
+  // rows further on in the wavefront.
   void start_next_block() {
-    for (int row = -kRowsAbove; row < 0; ++row) {
-      for (int column = -Wavefront::kMargin; column < columns_ + Wavefront::kMargin; ++column) {
-        for (int depth = 0; depth < kDepth; ++depth)
-          cell(row, column, depth) = cell(row + Wavefront::kRows, column, depth);
-      }
-    }
+    constexpr std::size_t kApart = std::size_t{Wavefront::kLag} * Wavefront::kRows * kDepth * kPitch;
+    for (std::size_t to = 0; to + kApart < values_.size(); to += kPitch)
+      std::copy_n(&values_[to + kApart + Wavefront::kRows], kRowsAbove, &values_[to]);
   }
 
  private:
@@ -68,7 +66,6 @@ class SkewedPlane {
                                     kRowsAbove + rows_down);
   }
 
-  int columns_;
   std::vector<T> values_;
 };
 

@@ -10,7 +10,7 @@
 namespace pointreel {
 namespace {
 
-constexpr float kTurn = 2 * std::numbers::pi_v<float>;
+constexpr float kTurnRad = 2 * std::numbers::pi_v<float>;
 
 // Which way the sensor turns: the sign of most small steps.
 bool turns_down(const PolarPoints& polar) {
@@ -30,7 +30,7 @@ bool turns_down(const PolarPoints& polar) {
 
 // From azimuth 0 on, points behind the sensor's left come a turn later.
 float from_front(float azimuth_rad) {
-  return azimuth_rad + (azimuth_rad < 0 ? kTurn : 0.0F);
+  return azimuth_rad + (azimuth_rad < 0 ? kTurnRad : 0.0F);
 }
 float jump_back(float direction, float before_rad, float here_rad) {
   return direction * (before_rad - here_rad);

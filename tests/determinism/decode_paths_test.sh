@@ -71,8 +71,18 @@ built_by() {
   mkdir -p "$scratch/$build"
   cd "$scratch/$build"
   rm -f ./*.o
-  mapfile -t predict < <(grep '^src/predict/' "$scratch/decoding.txt")
-  mapfile -t others < <(grep -v '^src/predict/' "$scratch/decoding.txt")
+  # What is compiled once per instruction set stays by itself.
+  local sources source predict=() others=()
+  mapfile -t sources <"$scratch/decoding.txt"
+  for source in "${sources[@]}"; do
+    if grep -q hwy/foreach_target.h "$root/$source"; then
+      compile "$(basename "$source" .cpp)" "$1" "$source"
+    elif [[ $source == src/predict/* ]]; then
+      predict+=("$source")
+    else
+      others+=("$source")
+    fi
+  done
   compile predict "$1" "${predict[@]}"
   compile others "$1" "${others[@]}" tests/determinism/decode_digest.cpp
   # shellcheck disable=SC2086 # no library is no argument

@@ -54,17 +54,18 @@ struct Coded {
 Coded encode(const GridImage& image, const CodingKind& kind, const RangeQuantiser& quantiser,
              const ReferenceImage& reference) {
   Coded coded{{}, image};
-  for (const Band& band : bands_of(image.rows, image.columns)) {
+  for (const Band& band : choose_bands(image, quantiser.step_m)) {
     BandState state = state_from_priors(kind, quantiser.step_m, band);
     coded.bands.push_back(encode_band({kind, quantiser, &reference}, band, coded.image, state));
   }
   return coded;
 }
 
-GridImage decode(const std::vector<CodedBand>& coded, const GridImage& size, const CodingKind& kind,
+// `original`: its bands are the stream's.
+GridImage decode(const std::vector<CodedBand>& coded, const GridImage& original, const CodingKind& kind,
                  const RangeQuantiser& quantiser, const ReferenceImage& reference) {
-  GridImage image{size.rows, size.columns, std::vector<float>(size.range_m.size())};
-  const auto bands = bands_of(image.rows, image.columns);
+  GridImage image{original.rows, original.columns, std::vector<float>(original.range_m.size())};
+  const auto bands = choose_bands(original, quantiser.step_m);
   for (std::size_t b = 0; b < bands.size(); ++b) {
     BandState state = state_from_priors(kind, quantiser.step_m, bands[b]);
     const auto result =

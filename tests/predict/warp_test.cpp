@@ -62,6 +62,12 @@ Pose moved(double x_m, double y_m, double yaw_rad) {
   return pose;
 }
 
+ReferenceImage warp(const SensorModel& model, const SweepGrid& grid, const ReferenceSweep& reference,
+                    const Pose& T_ref_cur, int threads) {
+  WarpMemory memory;
+  return pointreel::warp(model, grid, reference, T_ref_cur, threads, memory);
+}
+
 TEST(Warp, ShowsARoomFromAnotherPlace) {
   const SensorModel model = sensor(32);
   const SweepGrid reference_grid = full_turn(), grid = full_turn(1);
@@ -131,6 +137,30 @@ TEST(Warp, IsTheSameForAnyNumberOfThreads) {
   const ReferenceImage four = warp(model, grid, reference, moved(0.7, 0, 0.05), 4);
   EXPECT_EQ(one.range_m, four.range_m);
   EXPECT_EQ(one.hits, four.hits);
+}
+
+TEST(DrawTogether, AveragesWithinTheBinAndOnOneSurface) {
+  GridImage decoded{1, 6, {10, 10, 10, 0, 10, 10}};
+  draw_together({1, 6, {10.02F, 10.07F, 10.2F, 10, 0, 9.95F}, {}}, 0.04F, decoded);
+  const float expected_m[] = {10.006F, 10.012F, 10, 0, 10, 9.988F};
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(decoded.range_m[i], expected_m[i], 1e-5F) << i;
+}
+
+// Sweeps of one stream take the memory of the sweep before, whatever size that had.
+TEST(Warp, DoesNotDependOnWhatItsMemoryHeld) {
+  const SensorModel model = sensor(8);
+  WarpMemory memory;
+  for (const std::size_t columns : {2000u, 1999u, 1200u, 1207u, 2000u}) {
+    SweepGrid grid = full_turn();
+    grid.column_tick.resize(columns);
+    const ReferenceSweep reference =
+        reference_from(model, grid, room_from(model, grid, 0, 0, 0).range_m, {}, 1);
+    const Pose motion = moved(0.7, 0, 0.05);
+    const ReferenceImage& reused = pointreel::warp(model, grid, reference, motion, 1, memory);
+    const ReferenceImage fresh = warp(model, grid, reference, motion, 1);
+    EXPECT_EQ(reused.range_m, fresh.range_m) << columns;
+    EXPECT_EQ(reused.hits, fresh.hits) << columns;
+  }
 }
 
 // Whatever a damaged stream says about the motion.

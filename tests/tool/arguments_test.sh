@@ -4,7 +4,7 @@
 source "$(dirname "$0")/support.sh" "$@"
 
 run 0 --help
-for verb in encode decode info verify planes simulate; do says stdout "  $verb "; done
+for verb in encode decode info verify planes simulate bench; do says stdout "  $verb "; done
 says stdout "Exit codes: 0 done, 1 failed, 2 wrong arguments, 3 finished with data loss"
 for verb in encode decode info verify planes simulate; do
   run 0 "$verb" --help
@@ -47,11 +47,7 @@ wrong "--residual-step" "${planes[@]}" --residual-step 0
 wrong "--residual-step" "${planes[@]}" --residual-step never
 wrong "--imu" "${planes[@]}" --imu a.csv --poses b.txt
 
-# Options of the other grid, even with their default values.
-wrong "--max-error does not go with --method planes --grid uniform; the uniform grid has --threshold" "${planes[@]}" --max-error 2cm
-wrong "--fields does not go with --method planes --grid uniform" "${planes[@]}" --fields all
-wrong "--no-temporal does not go with --method planes --grid uniform; for the uniform grid, use --group 1" "${planes[@]}" --no-temporal
-wrong "--effort does not go with --method planes --grid uniform" "${planes[@]}" --effort max
+for verb in encode decode info verify planes simulate bench; do says stdout "  $verb "; done
 wrong "--effort" encode drive -o a.reel --effort slow
 wrong "--grid" "${planes[@]}" --grid square
 wrong "--grid goes with --method planes only" encode drive -o a.reel --grid uniform

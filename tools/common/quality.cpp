@@ -3,38 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <nanoflann.hpp>
 #include <span>
+
+#include "common/nearest_points.h"
 
 namespace pointreel {
 namespace {
 
-struct PointSource {
-  std::span<const Point3f> points;
-  std::size_t kdtree_get_point_count() const { return points.size(); }
-  float kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    return axis == 0 ? points[i].x : axis == 1 ? points[i].y : points[i].z;
-  }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-
 ErrorSummary nearest_errors(std::span<const Point3f> from, std::span<const Point3f> to) {
   ErrorSummary errors;
   if (to.empty()) return errors;
-  const PointSource source{to};
-  using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, PointSource, double>,
-                                                   PointSource, 3, std::uint32_t>;
-  const Tree tree(3, source, nanoflann::KDTreeSingleIndexAdaptorParams(16));
-  for (const Point3f& p : from) {
-    const float query[3] = {p.x, p.y, p.z};
-    std::uint32_t nearest = 0;
-    double squared_m2 = 0;
-    tree.knnSearch(query, 1, &nearest, &squared_m2);
-    errors.add(std::sqrt(squared_m2));
-  }
+  const NearestPoints candidates(to);
+  for (const Point3f& p : from) errors.add(candidates.nearest(p).distance_m);
   return errors;
 }
 

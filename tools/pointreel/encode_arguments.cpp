@@ -53,6 +53,7 @@ Result<EncoderOptions> sensor_grid_options(const EncodeArguments& arguments) {
                            : arguments.effort == "max" ? Effort::max
                                                        : Effort::balanced;
   options.mixture.temporal = !arguments.no_temporal;
+  options.mixture.register_sweeps = arguments.motion == "auto";
   return options;
 }
 
@@ -184,20 +185,27 @@ void add_encode_arguments(CLI::App& verb, EncodeArguments& arguments) {
           ->capture_default_str()
           ->group(planes)};
 
-  const std::string motion =
-      "Motion (where none is given it is found in the sweeps, but for the uniform grid)";
+  const std::string group = "Motion";
+  verb.add_option("--motion", arguments.motion,
+                  "auto: from --poses or --imu; where none is given it is found in the sweeps, but for the "
+                  "uniform grid; none: the sensor stands still")
+      ->check(CLI::IsMember({"auto", "none"}))
+      ->capture_default_str()
+      ->group(group);
   auto* poses =
       verb.add_option("--poses", arguments.poses, "Sensor poses, one per sweep (KITTI), or with times (TUM)")
-          ->group(motion);
+          ->group(group);
   verb.add_option("--imu", arguments.imu,
                   "IMU recording: .csv (t, ax, ay, az, wx, wy, wz) or a KITTI oxts folder")
       ->excludes(poses)
-      ->group(motion);
+      ->group(group);
 }
 
 Result<EncoderOptions> encoder_options(const EncodeArguments& arguments) {
   if (const auto valid = options_fit(arguments); !valid) return valid.error();
   if (const auto live = check_live(arguments); !live) return live.error();
+  if (arguments.motion == "none" && !(arguments.poses.empty() && arguments.imu.empty()))
+    return Error{ErrorCode::invalid_argument, "--motion none goes without --poses and --imu"};
   return is_uniform(arguments) ? uniform_grid_options(arguments) : sensor_grid_options(arguments);
 }
 

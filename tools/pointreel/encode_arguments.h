@@ -27,6 +27,8 @@ struct EncodeArguments {
   std::string elevation_step = "0.45deg";
   int tile = 4;
   std::string residual_step = "auto";
+  // both
+  std::string motion = "auto";
   std::string poses;
   std::string imu;
 

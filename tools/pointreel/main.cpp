@@ -25,7 +25,8 @@ int main(int argc, char** argv) {
   // The order here is the order in the help text.
   const std::vector<std::pair<CLI::App*, Verb>> verbs = [&] {
     std::vector<std::pair<CLI::App*, Verb>> added;
-    for (const auto add : {add_encode, add_decode, add_info, add_verify, add_planes, add_simulate}) {
+    for (const auto add :
+         {add_encode, add_decode, add_info, add_verify, add_planes, add_simulate, add_bench}) {
       Verb run = add(app);
       added.emplace_back(app.get_subcommands({}).back(), std::move(run));
     }

@@ -14,5 +14,6 @@ Verb add_info(CLI::App& app);
 Verb add_verify(CLI::App& app);
 Verb add_planes(CLI::App& app);
 Verb add_simulate(CLI::App& app);
+Verb add_bench(CLI::App& app);
 
 }  // namespace pointreel
