@@ -50,7 +50,14 @@ std::vector<Setting> settings() {
   add("mixture 2cm max", [](EncoderOptions& o) { o.mixture.effort = Effort::max; });
   add("mixture 1mm", [](EncoderOptions& o) { o.mixture.max_error_m = 0.001; });
   add("mixture 20cm", [](EncoderOptions& o) { o.mixture.max_error_m = 0.2; });
-  add("planes uniform 0.1", [](EncoderOptions& o) { o.method = Method::planes; });
+  add("planes sensor 10cm", [](EncoderOptions& o) {
+    o.method = Method::planes;
+    o.mixture.max_error_m = 0.1;
+  });
+  add("planes uniform 0.1", [](EncoderOptions& o) {
+    o.method = Method::planes;
+    o.planes.grid = PlaneGrid::uniform;
+  });
   return settings;
 }
 
@@ -65,8 +72,8 @@ long long bytes_of(const Corpus& corpus, const EncoderOptions& options) {
     return true;
   };
   for (std::size_t i = 0; i < corpus.sweeps.size(); ++i) {
-    // Method planes needs poses, mixture finds the motion.
-    const bool with_pose = options.method == Method::planes;
+    // On the sensor's grid the motion is found.
+    const bool with_pose = options.method == Method::planes && options.planes.grid == PlaneGrid::uniform;
     if (!count(encoder->encode(corpus.sweeps[i], with_pose ? std::optional(corpus.poses[i]) : std::nullopt)))
       return -1;
   }
