@@ -9,11 +9,16 @@
 namespace pointreel {
 namespace {
 
+// The paper's grid, which needs poses and keeps no field.
+bool is_uniform(const EncoderOptions& options) {
+  return options.method == Method::planes && options.planes.grid == PlaneGrid::uniform;
+}
+
 class ReelSweepEncoder final : public SweepEncoder {
  public:
   ReelSweepEncoder(const EncoderOptions& options, const DriveContext& drive)
       : encoder_(Encoder::create(options, Runtime{drive.threads})) {
-    if (options.method == Method::planes) poses_ = drive.T_world_sensor;
+    if (is_uniform(options)) poses_ = drive.T_world_sensor;
   }
 
   Result<std::vector<Chunk>> encode(const PointCloud& sweep) override {
@@ -105,6 +110,10 @@ class ReelSweepDecoder final : public SweepDecoder {
 };
 
 }  // namespace
+
+bool ReelCodec::carries_fields() const {
+  return !is_uniform(options_);
+}
 
 std::unique_ptr<SweepEncoder> ReelCodec::encoder(const DriveContext& drive) const {
   return std::make_unique<ReelSweepEncoder>(options_, drive);

@@ -16,9 +16,9 @@ class ReelCodec final : public Codec {
 
   std::string series() const override { return series_; }
   std::string settings() const override { return settings_; }
-  bool carries_fields() const override { return options_.method == Method::mixture; }
+  bool carries_fields() const override;
   int threads(const DriveContext& drive) const override { return drive.threads; }
-  // Method `mixture` is given no poses: it finds the motion itself.
+  // Only the paper's grid is given poses: the others find the motion themselves.
   std::unique_ptr<SweepEncoder> encoder(const DriveContext& drive) const override;
   std::unique_ptr<SweepDecoder> decoder(const DriveContext& drive) const override;
 

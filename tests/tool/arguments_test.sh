@@ -46,8 +46,14 @@ wrong "azimuth and elevation steps" "${planes[@]}" --azimuth-step 10deg
 wrong "--residual-step" "${planes[@]}" --residual-step 0
 wrong "--residual-step" "${planes[@]}" --residual-step never
 wrong "--imu" "${planes[@]}" --imu a.csv --poses b.txt
+wrong "--motion none goes without --poses and --imu" encode drive -o a.reel --motion none --poses a.txt
+wrong "--motion" encode drive -o a.reel --motion maybe
 
-for verb in encode decode info verify planes simulate bench; do says stdout "  $verb "; done
+# Options of the other grid, even with their default values.
+wrong "--max-error does not go with --method planes --grid uniform; the uniform grid has --threshold" "${planes[@]}" --max-error 2cm
+wrong "--fields does not go with --method planes --grid uniform" "${planes[@]}" --fields all
+wrong "--no-temporal does not go with --method planes --grid uniform; for the uniform grid, use --group 1" "${planes[@]}" --no-temporal
+wrong "--effort does not go with --method planes --grid uniform" "${planes[@]}" --effort max
 wrong "--effort" encode drive -o a.reel --effort slow
 wrong "--grid" "${planes[@]}" --grid square
 wrong "--grid goes with --method planes only" encode drive -o a.reel --grid uniform
