@@ -5,6 +5,8 @@ COLOURS = {
     "mixture fast": "#f4a582",
     "mixture balanced": "#d6191b",
     "mixture max": "#67001f",
+    "planes sensor fast": "#92c5de",
+    "planes sensor balanced": "#4393c3",
     "planes": "#2166ac",
     "G-PCC predictive": "#000000",
     "G-PCC octree": "#777777",
