@@ -167,28 +167,6 @@ template <std::size_t N>
 POINTREEL_INLINE Floats<N> where(const Mask<N>& mask, const Floats<N>& a) {  // 0 elsewhere
   return each<N>([&](std::size_t i) HWY_ATTR { return hn::IfThenElseZero(mask.part[i], a.part[i]); });
 }
-template <std::size_t N>
-POINTREEL_INLINE Floats<N> without_first(const Floats<N>& a) {  // lane 0 becomes 0
-  Floats<N> result = a;
-  result.part[0] = hn::IfThenZeroElse(hn::FirstN(typename Floats<N>::Tag(), 1), a.part[0]);
-  return result;
-}
-// `a` with x in lane kLane. (Writing single lanes in memory and loading them as a vector stalls.)
-template <std::size_t kLane, std::size_t N>
-POINTREEL_INLINE Floats<N> with_lane(const Floats<N>& a, float x) {
-  using F = Floats<N>;
-  const typename F::Tag tag;
-  constexpr std::size_t kPart = kLane / F::kPartLanes, kIn = kLane % F::kPartLanes;
-  Floats<N> result = a;
-  const auto up_to = hn::FirstN(tag, kIn + 1);
-  const auto before = hn::FirstN(tag, kIn);
-  result.part[kPart] = hn::IfThenElse(hn::AndNot(before, up_to), hn::Set(tag, x), a.part[kPart]);
-  return result;
-}
-template <std::size_t N>
-POINTREEL_INLINE float first(const Floats<N>& a) {
-  return hn::GetLane(a.part[0]);
-}
 
 template <std::size_t N, class Operation>
 POINTREEL_INLINE Ints<N> each_int(const Operation& operation) {
