@@ -35,6 +35,20 @@ class PriorMean {
     }
   }
 
+  // How much tables differ between sweeps says how much their priors count for: little.
+  template <std::size_t kTables>
+  void symbols(const SymbolTables<kTables>& tables) {
+    constexpr int kMostCount = 48;
+    for (std::size_t t = 0; t < kTables; ++t) {
+      set(std::min<int>(tables.count[t] / 2, kMostCount));
+      int before = 0;
+      for (const int end : tables.tables[t].cumulative) {
+        logarithm(static_cast<float>(end - before + 16) / 65536);
+        before = end;
+      }
+    }
+  }
+
   // As C++ source, one table.
   void print(const std::string& name) const {
     fmt::print("constexpr std::int8_t {}[] = {{\n", name);

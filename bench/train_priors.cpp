@@ -40,7 +40,7 @@ Means train(const std::vector<TrainingDrive>& drives, const CodingKind& kind, fl
             means.ranges.start_visit();
             visit_range_state(running.ranges, kind, means.ranges);
             means.mask.start_visit();
-            visit_hit_mask_state(running.mask, means.mask);
+            visit_hit_mask_state(running.mask, kind, means.mask);
           }
         } else {
           for (float& range_m : image.range_m) range_m = std::round(range_m / step_m) * step_m;

@@ -15,7 +15,7 @@ inline BandState untrained(const CodingKind& kind, int rows) {
     const std::size_t experts = experts_of(kind);
     std::fill_n(at.weight.begin(), experts, 1.F);
     std::fill_n(at.inverse_scale.begin(), experts, 5.F);
-    at.per_total_weight = 1 / static_cast<float>(experts);
+    at.per_total_weight = 1 / static_cast<float>(std::max<std::size_t>(experts, 1));
   }
   for (auto& mixer : state.ranges.steps.zero_mixers) mixer.weight[0] = 1;
   for (auto& mixer : state.ranges.steps.sign_mixers) mixer.weight[0] = 1;

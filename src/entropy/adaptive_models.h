@@ -59,6 +59,14 @@ class BitEncoder {
     return bit;
   }
   bool code_even(bool bit) { return code_with(bit, 32768); }
+  // All values below 2^count are equally likely; at most 16 bits.
+  std::uint32_t code_bits(std::uint32_t value, int count) {
+    coder_.encode_part(value, 1, count);
+    return value;
+  }
+  void code_part(std::uint32_t first, std::uint32_t size, int whole_bits) {
+    coder_.encode_part(first, size, whole_bits);
+  }
   std::vector<std::uint8_t> finish() { return coder_.finish(); }
   std::size_t size() const { return coder_.size(); }
 
@@ -78,6 +86,16 @@ class BitDecoder {
   }
   bool code_with(bool /*ignored*/, Probability16 p_one) { return coder_.decode(p_one); }
   bool code_even(bool /*ignored*/ = false) { return code_with(false, 32768); }
+  std::uint32_t code_bits(std::uint32_t /*ignored*/, int count) {
+    const std::uint32_t value = coder_.next_place(count);
+    coder_.take_part(value, 1, count);
+    return value;
+  }
+  // A decoder asks first in which part it is.
+  std::uint32_t next_place(int whole_bits) const { return coder_.next_place(whole_bits); }
+  void code_part(std::uint32_t first, std::uint32_t size, int whole_bits) {
+    coder_.take_part(first, size, whole_bits);
+  }
   bool overran() const { return coder_.overran(); }
 
  private:

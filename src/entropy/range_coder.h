@@ -1,9 +1,11 @@
 // Binary range coder: turns (bit, probability) pairs into bytes and back, exactly, on every machine.
 //
 // Carry-propagating coder with 32-bit range (Martin 1979, in the form Pavlov's LZMA made common).
-// Probabilities are 16-bit integers, so nothing here depends on floating point.
+// Probabilities are 16-bit integers, so nothing here depends on floating point. Symbols of more than two
+// values are parts of a whole of 2^n, n up to 16.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -24,10 +26,15 @@ class RangeEncoder {
     const std::uint32_t if_zero = bit ? 0u : ~0u;
     low_ += bound & if_zero;
     range_ = bound + ((range_ - 2 * bound) & if_zero);
-    while (range_ < kTop) {
-      range_ <<= 8;
-      shift_low();
-    }
+    renormalise();
+  }
+
+  // The part [first, first + size) of 2^whole_bits.
+  void encode_part(std::uint32_t first, std::uint32_t size, int whole_bits) {
+    const std::uint32_t unit = range_ >> whole_bits;
+    low_ += std::uint64_t{unit} * first;
+    range_ = unit * size;
+    renormalise();
   }
 
   // Ends the stream; the encoder is spent afterwards. Trailing zero bytes are left out: the decoder reads
@@ -39,6 +46,12 @@ class RangeEncoder {
 
  private:
   static constexpr std::uint32_t kTop = 1u << 24;
+  void renormalise() {
+    while (range_ < kTop) {
+      range_ <<= 8;
+      shift_low();
+    }
+  }
   void shift_low();
 
   std::vector<std::uint8_t> bytes_;
@@ -63,11 +76,19 @@ class RangeDecoder {
       code_ -= bound;
       range_ -= bound;
     }
-    while (range_ < kTop) {
-      range_ <<= 8;
-      code_ = (code_ << 8) | next_byte();
-    }
+    renormalise();
     return bit;
+  }
+
+  // A place in the part that comes next; take_part() then takes that part.
+  std::uint32_t next_place(int whole_bits) const {
+    return std::min(code_ / (range_ >> whole_bits), (std::uint32_t{1} << whole_bits) - 1);
+  }
+  void take_part(std::uint32_t first, std::uint32_t size, int whole_bits) {
+    const std::uint32_t unit = range_ >> whole_bits;
+    code_ -= unit * first;
+    range_ = unit * size;
+    renormalise();
   }
 
   // True when more bytes were asked for than any encoder's stream of this length can need: the input is
@@ -78,6 +99,12 @@ class RangeDecoder {
   static constexpr std::uint32_t kTop = 1u << 24;
   static constexpr std::size_t kSlack = 64;  // dropped trailing zeros; longer runs are put back by finish()
 
+  void renormalise() {
+    while (range_ < kTop) {
+      range_ <<= 8;
+      code_ = (code_ << 8) | next_byte();
+    }
+  }
   std::uint32_t next_byte() {
     const std::size_t i = position_++;
     return i < bytes_.size() ? bytes_[i] : 0u;

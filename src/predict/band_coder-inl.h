@@ -9,8 +9,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <type_traits>
 
 #include "predict/band_coding.h"
+#include "predict/fast_range_model-inl.h"
 #include "predict/hit_mask-inl.h"
 #include "predict/range_model-inl.h"
 
@@ -27,7 +30,8 @@ bool code_band(Coder& mask_coder, Coder& range_coder, const BandSetting& setting
   const int columns = image.columns;
   const float* known_m = setting.known_range_m.empty() ? nullptr : setting.known_range_m.data();
   HitMaskModel<kEffort, kPredicted> mask(columns, state.mask);
-  RangeModel<kEffort, kPredicted> ranges(columns, setting, state.ranges);
+  using Ranges = std::conditional_t<kEffort == Effort::fast, FastRangeModel, RangeModel<kEffort, kPredicted>>;
+  Ranges ranges(columns, setting, state.ranges);
   ReferencePlanes reference(kPredicted ? columns : 0);
   for (int first = 0; first < band.rows; first += kRows) {
     const int rows = std::min(kRows, band.rows - first);
@@ -35,29 +39,48 @@ bool code_band(Coder& mask_coder, Coder& range_coder, const BandSetting& setting
     for (int row = 0; row < rows && quantiser.on_lattice(); ++row)
       phase_m[static_cast<std::size_t>(row)] =
           quantiser.lattice_phase_m[static_cast<std::size_t>(band.first_row + first + row)];
+    // Row r stands at column step - kLag r.
+    std::array<std::ptrdiff_t, kRows> row_start{};
+    for (int row = 0; row < rows; ++row) {
+      row_start[static_cast<std::size_t>(row)] =
+          static_cast<std::ptrdiff_t>(image.index(band.first_row + first + row, 0)) - kLag * row;
+    }
     mask.start_block(first == 0);
     ranges.start_block(first == 0, phase_m);
     if constexpr (kPredicted) reference.load_block(*setting.reference, band.first_row + first);
     for (int step = 0; step < Wavefront::steps(columns); ++step) {
       mask.predict(step, &reference);
       ranges.start_step();
-      // Row r stands at column step - kLag r.
       const int first_row = std::max(0, (step - columns) / kLag + (step >= columns ? 1 : 0));
       const int end_row = std::min(rows, step / kLag + 1);
       std::array<int, kRows> hit_rows;
       std::size_t hits = 0;
       const auto range_of = [&](int row) HWY_ATTR -> float& {
-        return image.range_m[image.index(band.first_row + first + row, step - kLag * row)];
+        return image.range_m[static_cast<std::size_t>(row_start[static_cast<std::size_t>(row)] + step)];
       };
-      for (int row = first_row; row < end_row; ++row) {
+      const auto take_hit = [&](int row) HWY_ATTR {
         hit_rows[hits] = row;
         const auto cell = static_cast<std::size_t>(row);
-        if (!mask.code(mask_coder, cell, first + row, range_of(row) > 0)) continue;
-        const std::size_t index = image.index(band.first_row + first + row, step - kLag * row);
-        if (known_m != nullptr && known_m[index] > 0) {
-          image.range_m[index] = ranges.take_known(cell, known_m[index]);
+        const float known_range_m =
+            known_m != nullptr ? known_m[static_cast<std::size_t>(row_start[cell] + step)] : 0;
+        if (known_range_m > 0) {
+          range_of(row) = ranges.take_known(cell, known_range_m);
         } else {
           ++hits;
+        }
+      };
+      const auto are_hits = [&]() HWY_ATTR {
+        bool all = true;
+        for (int row = 0; row < kRows; ++row) all = all & (range_of(row) > 0);
+        return all;
+      };
+      if (kEffort == Effort::fast && end_row - first_row == kRows && mask.are_sure() &&
+          mask.code_together(mask_coder, !Coder::kDecodes && are_hits())) {
+        for (int row = 0; row < kRows; ++row) take_hit(row);
+      } else {
+        for (int row = first_row; row < end_row; ++row) {
+          if (mask.code(mask_coder, static_cast<std::size_t>(row), first + row, range_of(row) > 0))
+            take_hit(row);
         }
       }
       const auto for_each_hit = [&](const auto& act) HWY_ATTR {

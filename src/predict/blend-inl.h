@@ -60,16 +60,30 @@ POINTREEL_INLINE Int8 error_classes(const Float8& squared_steps) {
                  all_ints<8>(static_cast<std::int32_t>(kErrorClasses) - 1));
 }
 
-// The blend is the mean of the proposals but lane 0, weighted by the inverse fourth power of their recent
-// errors. It replaces lane 0 of `proposals`.
+// The blend of eight cells' proposals: their mean but for lane 0, weighted by the inverse fourth power of
+// their recent errors.
+struct Blend {
+  Float8 range_m;
+  Float8 squared_error;  // recent, in squared steps
+  Float8 spread;         // of the proposals around it, the same
+
+  POINTREEL_INLINE Blend() {}
+};
+
+// What errors are at least, in square metres.
+POINTREEL_INLINE float error_floor(float step_m) {
+  return step_m * step_m * 0.08F + 1e-5F;
+}
+
+// Replaces lane 0 of `proposals` by the blend. `precision`: of each proposal, 1 / its recent squared error.
 template <std::size_t kExperts>
-HWY_NOINLINE void blend(const ErrorPlanes<kExperts>& errors, const Neighbourhood& cells, int step,
-                        float step_m, Proposals<kExperts>& proposals, BlendedProposals<kExperts>& blended) {
+POINTREEL_INLINE Blend weigh(const ErrorPlanes<kExperts>& errors, const Neighbourhood& cells, int step,
+                             float step_m, Proposals<kExperts>& proposals, Float8 (&precision)[kExperts]) {
   constexpr float kUnknownSquaredSteps = 30;  // the experts' error where no neighbour is known
   constexpr std::ptrdiff_t kPitch = ErrorPlanes<kExperts>::kPitch;
   const NeighbourWeights weights(cells);
   const float squared_step = step_m * step_m;
-  const float floor = squared_step * 0.08F + 1e-5F;
+  const float floor = error_floor(step_m);
   const Mask<8> none = weights.total <= all<8>(0);
   const Float8 unknown = where(none, all<8>(kUnknownSquaredSteps * squared_step));
   const float* left = errors.at(step, -1);
@@ -79,7 +93,8 @@ HWY_NOINLINE void blend(const ErrorPlanes<kExperts>& errors, const Neighbourhood
   const float* above_right = errors.at(step, 1, -1);
   const float* above2 = errors.at(step, 0, -2);
   Float8 weighted = all<8>(0), total = all<8>(0);
-  Float8 inverse_scale[kExperts], weight[kExperts];
+  Float8 weight[kExperts];
+  Blend blend;
   for (std::size_t k = 0; k < kExperts; ++k) {
     const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(k) * kPitch;
     const Float8 in_row = load<8>(left + at) * weights.left + load<8>(left2 + at) * weights.left2;
@@ -87,24 +102,39 @@ HWY_NOINLINE void blend(const ErrorPlanes<kExperts>& errors, const Neighbourhood
     const Float8 across =
         load<8>(above_left + at) * weights.above_left + load<8>(above_right + at) * weights.above_right;
     const Float8 mean_square = ((in_row + in_column) + across) + unknown;
-    const Float8 precision = all<8>(1) / (mean_square + all<8>(floor));
-    inverse_scale[k] = (1 / step_m) * square_root(floor * precision);
+    precision[k] = all<8>(1) / (mean_square + all<8>(floor));
     if (k == 0) {
-      store(error_classes((1 / squared_step) * mean_square), blended.error_class);
+      blend.squared_error = (1 / squared_step) * mean_square;
     } else {
-      weight[k] = precision * precision;
+      weight[k] = precision[k] * precision[k];
       weighted = weighted + weight[k] * proposals.range_m[k];
       total = total + weight[k];
     }
   }
-  proposals.range_m[0] = weighted / total;
-  store(proposals.range_m[0], blended.blend_m);
+  blend.range_m = weighted / total;
+  proposals.range_m[0] = blend.range_m;
   Float8 spread = all<8>(0);
   for (std::size_t k = 1; k < kExperts; ++k) {
-    const Float8 away_m = proposals.range_m[k] - proposals.range_m[0];
+    const Float8 away_m = proposals.range_m[k] - blend.range_m;
     spread = spread + weight[k] * (away_m * away_m);
   }
-  store(error_classes((1 / squared_step) * (spread / total)), blended.spread_class);
+  blend.spread = (1 / squared_step) * (spread / total);
+  return blend;
+}
+
+// The same with all that the mixture looks at.
+template <std::size_t kExperts>
+HWY_NOINLINE void blend(const ErrorPlanes<kExperts>& errors, const Neighbourhood& cells, int step,
+                        float step_m, Proposals<kExperts>& proposals, BlendedProposals<kExperts>& blended) {
+  Float8 precision[kExperts];
+  const Blend blend = weigh<kExperts>(errors, cells, step, step_m, proposals, precision);
+  store(blend.range_m, blended.blend_m);
+  store(error_classes(blend.squared_error), blended.error_class);
+  store(error_classes(blend.spread), blended.spread_class);
+  const float floor = error_floor(step_m);
+  Float8 inverse_scale[kExperts];
+  for (std::size_t k = 0; k < kExperts; ++k)
+    inverse_scale[k] = (1 / step_m) * square_root(floor * precision[k]);
   for (std::size_t g = 0; g < kExperts / 4; ++g) {
     const Float8* r = &proposals.range_m[4 * g];
     const Float8* s = &inverse_scale[4 * g];
@@ -113,23 +143,19 @@ HWY_NOINLINE void blend(const ErrorPlanes<kExperts>& errors, const Neighbourhood
   }
 }
 
-// Squared errors of the proposals at what was decoded, for later cells.
+// Squared errors of the proposals at what was decoded, for later cells. Where no expert was asked, those of a
+// smooth surface.
 template <std::size_t kExperts>
-HWY_NOINLINE void store_errors(const Proposals<kExperts>& proposals, const Float8& decoded_m, int step,
-                               ErrorPlanes<kExperts>& errors) {
+HWY_NOINLINE void remember_errors(const Proposals<kExperts>& proposals, const Float8& decoded_m,
+                                  bool proposed, float step_m, int step, ErrorPlanes<kExperts>& errors) {
+  constexpr float kUnknownSquaredSteps = 0.1F;
   float* to = errors.at(step);
   for (std::size_t k = 0; k < kExperts; ++k) {
     const Float8 error_m = proposals.range_m[k] - decoded_m;
-    store(smaller(error_m * error_m, all<8>(kLargestSquaredErrorM2)), to + k * ErrorPlanes<kExperts>::kPitch);
+    store(proposed ? smaller(error_m * error_m, all<8>(kLargestSquaredErrorM2))
+                   : all<8>(kUnknownSquaredSteps * step_m * step_m),
+          to + k * ErrorPlanes<kExperts>::kPitch);
   }
-}
-
-// The same where there are no proposals.
-template <std::size_t kExperts>
-POINTREEL_INLINE void store_equal_errors(float squared_error_m2, int step, ErrorPlanes<kExperts>& errors) {
-  float* to = errors.at(step);
-  for (std::size_t k = 0; k < kExperts; ++k)
-    store(all<8>(squared_error_m2), to + k * ErrorPlanes<kExperts>::kPitch);
 }
 
 }  // namespace HWY_NAMESPACE

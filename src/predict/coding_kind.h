@@ -13,9 +13,9 @@ struct CodingKind {
   Effort effort = Effort::balanced;
 };
 
-// Experts that predict the ranges of such a frame.
+// Experts of the mixture that predicts the ranges of such a frame; effort fast has none.
 constexpr std::size_t experts_of(const CodingKind& kind) {
-  if (kind.effort == Effort::fast) return 8;
+  if (kind.effort == Effort::fast) return 0;
   return kind.predicted && kind.effort == Effort::max ? 24 : 16;
 }
 

@@ -35,6 +35,14 @@ class HitMaskModel {
     for (std::int32_t& hit : hits_) hit = 1;  // outside the image hits are the better guess
   }
 
+  // The eight are coded at once where each of them is sure to be a hit, all but once in a while. True when
+  // they are hits; otherwise each has to be coded.
+  POINTREEL_INLINE bool are_sure() const { return contexts_.are_sure(); }
+  template <class Coder>
+  POINTREEL_INLINE bool code_together(Coder& coder, bool hits) {
+    return code_alone(coder, state_.together, hits);
+  }
+
   // Codes the bit of one of them; a decoder passes anything and gets it. `row`: in the band.
   template <class Coder>
   POINTREEL_INLINE bool code(Coder& coder, std::size_t cell, int row, bool hit) {
@@ -73,11 +81,16 @@ class HitMaskModel {
   // Amid hits, mixing would only take time.
   template <class Coder>
   POINTREEL_INLINE bool code_sure(Coder& coder, std::size_t cell, bool hit) {
-    CountedBit& bit = state_.sure[static_cast<std::size_t>(contexts_.slot[HitMaskState::kEdges][cell])];
-    hit = coder.code_with(hit, std::clamp(bit.p_one(), kMinProbability, 65536 - kMinProbability));
-    bit.update(hit);
+    hit = code_alone(coder, state_.sure[static_cast<std::size_t>(contexts_.slot[HitMaskState::kEdges][cell])],
+                     hit);
     hits_[cell] = hit ? 1 : 0;
     return hit;
+  }
+  template <class Coder>
+  static POINTREEL_INLINE bool code_alone(Coder& coder, CountedBit& bit, bool value) {
+    value = coder.code_with(value, std::clamp(bit.p_one(), kMinProbability, 65536 - kMinProbability));
+    bit.update(value);
+    return value;
   }
 
   HitMaskPlanes planes_;

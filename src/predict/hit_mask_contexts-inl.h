@@ -179,6 +179,12 @@ class HitMaskContexts {
           mixer);
   }
 
+  // Each of the eight.
+  POINTREEL_INLINE bool are_sure() const {
+    std::int32_t all = 1;
+    for (const std::int32_t sure : sure_) all &= sure;
+    return all != 0;
+  }
   // All around are hits, and the reference has one, too.
   POINTREEL_INLINE bool is_sure(std::size_t cell) const { return sure_[cell] != 0; }
 

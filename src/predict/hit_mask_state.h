@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "entropy/bit_mixer.h"
+#include "predict/coding_kind.h"
 #include "predict/mixer_weights.h"
 
 namespace pointreel {
@@ -28,14 +29,16 @@ struct HitMaskState {
   // Of the band: at least 1.
   std::size_t rows() const { return bits[kRow].size() / kSlots[kRow]; }
 
-  std::array<CountedBit, kSlots[kEdges]> sure;          // of cells amid hits
+  CountedBit together;                                  // of eight cells amid hits, effort fast: all are hits
+  std::array<CountedBit, kSlots[kEdges]> sure;          // of one cell amid hits
   std::array<std::vector<CountedBit>, kContexts> bits;  // kRow: kSlots for each row
   std::array<MixerWeights<kContexts>, kMixers> mixers;
 };
 
 // Shows a visitor all that adapts, in the order of the tables of priors (priors.h).
 template <class State, class Visitor>
-void visit_hit_mask_state(State& state, Visitor& visitor) {
+void visit_hit_mask_state(State& state, const CodingKind& kind, Visitor& visitor) {
+  if (kind.effort == Effort::fast) visitor.bit(state.together);
   for (auto& bit : state.sure) visitor.bit(bit);
   for (std::size_t i = 0; i < HitMaskState::kContexts; ++i) {
     if (i == HitMaskState::kRow) {

@@ -31,6 +31,20 @@ class PriorReader {
     const auto prior = static_cast<std::uint8_t>(*next_++);
     bit = {squash((prior >> 2) * kPriorStep - kMaxStretch + kPriorStep / 2 - 1), kPriorCounts[prior & 3]};
   }
+  template <std::size_t kTables>
+  void symbols(SymbolTables<kTables>& tables) {
+    for (std::size_t t = 0; t < kTables; ++t) {
+      tables.count[t] = static_cast<std::uint8_t>(*next_++);
+      std::array<float, kSymbols> weight{};
+      float total = 0;
+      for (float& w : weight) total += w = power_of_two(*next_++);
+      float sum = 0;
+      for (std::size_t i = 0; i + 1 < kSymbols; ++i) {
+        sum += weight[i];
+        tables.tables[t].cumulative[i] = static_cast<std::uint16_t>(sum / total * 65535);
+      }
+    }
+  }
   // Rows share their priors, so that those do not know one sensor's rows.
   void bits_by_row(CountedBit* bits, std::size_t rows, std::size_t per_row) {
     for (std::size_t i = 0; i < per_row; ++i) bit(bits[i]);
@@ -46,7 +60,7 @@ class PriorReader {
 BandState state_from_priors(const CodingKind& kind, float step_m, const Band& band) {
   BandState state{HitMaskState(static_cast<std::size_t>(band.rows)), {}};
   PriorReader mask(hit_mask_priors(kind));
-  visit_hit_mask_state(state.mask, mask);
+  visit_hit_mask_state(state.mask, kind, mask);
   PriorReader ranges(range_priors(kind, prior_set(step_m)));
   visit_range_state(state.ranges, kind, ranges);
   for (MixtureState::PerClass& at : state.ranges.mixture.classes) {

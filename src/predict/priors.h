@@ -26,7 +26,8 @@ constexpr std::size_t prior_set(float step_m) {
 
 // A table has one number for each thing that visit_range_state() or visit_hit_mask_state() shows:
 // an adaptive bit: 64 steps of 1/4 in ln(p / (1 - p)), and in the lowest two bits how many bits it counts
-// for; a mixer's weight: in units of 1/kPriorsPerWeight; a logarithm: in eighths of an octave.
+// for; a table of symbols: how many it counts for, and a logarithm for each of them; a mixer's weight: in
+// units of 1/kPriorsPerWeight; a logarithm: in eighths of an octave.
 inline constexpr int kPriorStep = 64;  // in Stretch units
 inline constexpr std::array<std::uint8_t, 4> kPriorCounts = {0, 3, 10, 30};
 inline constexpr int kPriorsPerWeight = 32;

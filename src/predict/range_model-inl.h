@@ -14,6 +14,7 @@
 
 #include "predict/band_coding.h"
 #include "predict/experts-inl.h"
+#include "predict/range_rounding-inl.h"
 #include "predict/step_coder-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -48,10 +49,8 @@ class RangeModel {
   // Eight cells without returns so far.
   POINTREEL_INLINE void start_step() {
     predicted_ = false;
-    for (std::size_t i = 0; i < Wavefront::kRows; ++i) {
-      decoded_m_[i] = 0;
-      coded_steps_[i] = 0;
-    }
+    store(all<8>(0), decoded_m_);
+    store(all_ints<8>(0), coded_steps_);
   }
 
   // Looks at what is known of them; only needed before code().
@@ -74,7 +73,8 @@ class RangeModel {
   // Looks at one of them that holds a return: before any of them is coded.
   POINTREEL_INLINE void start(std::size_t cell) {
     const float blend_m = blended_.blend_m[cell];
-    const float origin_m = on_lattice_ ? on_lattice(blend_m, lattice_phase_m_[cell]) : blend_m;
+    const float origin_m =
+        on_lattice_ ? nearest_on_lattice(blend_m, step_m_, lattice_phase_m_[cell]) : blend_m;
     bins_[cell].start(Mixture<kExperts>(state_.mixture, blended_, cell), origin_m, step_m_);
   }
 
@@ -109,28 +109,11 @@ class RangeModel {
     store(where(seen(decoded_m), all<8>(1) / larger(decoded_m, all<8>(kSmallestRangeM))),
           planes_.inverse_range.at(step));
     store(load_ints<8>(coded_steps_), steps_.at(step));
-    if (predicted_) {
-      store_errors<kExperts>(proposals_, decoded_m, step, errors_);
-    } else {
-      store_equal_errors<kExperts>(kUnknownSquaredShare * step_m_ * step_m_, step, errors_);
-    }
+    remember_errors(proposals_, decoded_m, predicted_, step_m_, step, errors_);
     memory_.add(decoded_m);
   }
 
  private:
-  // Squared errors where no expert was asked, in squared steps: as on a smooth surface.
-  static constexpr float kUnknownSquaredShare = 0.1F;
-
-  // Hostile streams reach beyond the integers, where processors disagree about conversions.
-  static POINTREEL_INLINE std::int32_t rounded(float x) {
-    constexpr float kMost = 1 << 30;
-    x = x < kMost ? x : kMost;
-    x = x > -kMost ? x : -kMost;
-    return x < 0 ? -static_cast<std::int32_t>(0.5F - x) : static_cast<std::int32_t>(x + 0.5F);
-  }
-  POINTREEL_INLINE float on_lattice(float range_m, float phase_m) const {
-    return static_cast<float>(rounded((range_m - phase_m) / step_m_)) * step_m_ + phase_m;
-  }
   void leave_out_experts() {
     for (std::size_t k = 0; k < kExperts; ++k) {
       if ((ingredients_.experts_off >> k & 1) != 0) proposals_.range_m[k] = proposals_.range_m[0];

@@ -7,6 +7,7 @@
 
 #include "entropy/bit_mixer.h"
 #include "predict/coding_kind.h"
+#include "predict/fast_range_state.h"
 #include "predict/mixer_weights.h"
 
 namespace pointreel {
@@ -51,11 +52,13 @@ struct StepModels {
 struct RangeModelState {
   MixtureState mixture;
   StepModels steps;
+  FastRangeState fast;  // all of it, for effort fast
 };
 
 // Shows a visitor all that adapts, in the order of the tables of priors (priors.h).
 template <class State, class Visitor>
 void visit_range_state(State& state, const CodingKind& kind, Visitor& visitor) {
+  if (kind.effort == Effort::fast) return visit_fast_range_state(state.fast, visitor);
   const std::size_t experts = experts_of(kind);
   for (auto& at : state.mixture.classes) {
     for (std::size_t k = 0; k < experts; ++k) visitor.logarithm(at.weight[k]);

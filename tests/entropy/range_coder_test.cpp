@@ -51,6 +51,34 @@ RC_GTEST_PROP(RangeCoder, BringsBackRandomBitsAtRandomProbabilities, ()) {
   RC_ASSERT(decoded_right(encode(decisions), decisions) == count);
 }
 
+RC_GTEST_PROP(RangeCoder, BringsBackPartsOfAWholeBetweenBits, ()) {
+  struct Part {
+    std::uint32_t first, size;
+    int whole_bits;
+  };
+  const auto count = *rc::gen::inRange<std::size_t>(0, 2000);
+  std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
+  std::vector<Part> parts(count);
+  RangeEncoder encoder;
+  for (Part& part : parts) {
+    part.whole_bits = static_cast<int>(random() % 16) + 1;
+    const std::uint32_t whole = 1U << part.whole_bits;
+    part.first = static_cast<std::uint32_t>(random()) % whole;
+    part.size = 1 + static_cast<std::uint32_t>(random()) % (whole - part.first);
+    encoder.encode_part(part.first, part.size, part.whole_bits);
+    encoder.encode(part.size % 2 == 0, 20'000);
+  }
+  const auto bytes = encoder.finish();
+  RangeDecoder decoder(bytes);
+  for (const Part& part : parts) {
+    const std::uint32_t place = decoder.next_place(part.whole_bits);
+    RC_ASSERT(place >= part.first && place < part.first + part.size);
+    decoder.take_part(part.first, part.size, part.whole_bits);
+    RC_ASSERT(decoder.decode(20'000) == (part.size % 2 == 0));
+  }
+  RC_ASSERT(!decoder.overran());
+}
+
 TEST(RangeCoder, WorksAtTheExtremesOfProbability) {
   for (const Probability16 p_one : {kMinProbability, kMaxProbability}) {
     for (const int period : {1, 2, 3, 1000}) {

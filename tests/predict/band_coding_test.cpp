@@ -128,6 +128,14 @@ TEST(BandCoding, ALatticeIsKeptExactly) {
   }
 }
 
+TEST(BandCoding, SmallAndLargeStepsComeBack) {
+  const GridImage image = street(24, 400, 5);
+  const ReferenceImage reference = reference_of(street(24, 400, 6, 1));
+  for (const float step_m : {0.001F, 0.002F, 0.006F, 0.3F, 2.0F}) {
+    for (const CodingKind& kind : kKinds) check_round_trip(image, kind, {step_m, {}}, reference);
+  }
+}
+
 TEST(BandCoding, NoiseComesBackWhateverTheRanges) {
   std::mt19937 random(7);
   GridImage image{40, 333, {}};
@@ -170,9 +178,9 @@ TEST(BandCoding, AnyBytesDecodeToSomeImageOrEndTooSoon) {
           byte = static_cast<std::uint8_t>(trial == 0 ? 0 : trial == 1 ? 0xFF : random());
       }
       GridImage image{size.rows, size.columns, std::vector<float>(size.range_m.size())};
-      const RangeQuantiser quantiser{kStepM, {}};
+      const RangeQuantiser quantiser{trial % 2 == 0 ? kStepM : 0.002F, {}};
       const Band whole{0, size.rows};
-      BandState state = state_from_priors(kind, kStepM, whole);
+      BandState state = state_from_priors(kind, quantiser.step_m, whole);
       // The sanitizers watch the indices and the arithmetic.
       (void)decode_band({kind, quantiser, &reference}, whole, mask, ranges, image, state);
       for (const float range_m : image.range_m) ASSERT_TRUE(std::isfinite(range_m));

@@ -1,0 +1,323 @@
+// Predicts and codes the ranges of one band of rows for effort fast: no mixture, one symbol a cell.
+//
+//   propose -> blend by recent errors -> code the bin as a symbol -> reconstruct        (eight cells at a
+//   time)
+//
+// At depth edges the blend is often wrong by far, but some cell around shows the surface: alternatives stand
+// for those, and symbols say which of them is right.
+
+#if defined(POINTREEL_PREDICT_FAST_RANGE_MODEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef POINTREEL_PREDICT_FAST_RANGE_MODEL_INL_H_
+#undef POINTREEL_PREDICT_FAST_RANGE_MODEL_INL_H_
+#else
+#define POINTREEL_PREDICT_FAST_RANGE_MODEL_INL_H_
+#endif
+
+#include <algorithm>
+#include <bit>
+
+#include "predict/band_coding.h"
+#include "predict/blend-inl.h"
+#include "predict/fast_experts-inl.h"
+#include "predict/fast_range_state.h"
+#include "predict/range_rounding-inl.h"
+#include "predict/step_context-inl.h"
+#include "predict/symbol_coding-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pointreel {
+namespace HWY_NAMESPACE {
+
+// The first two surfaces seen around each of eight cells that are neither the blend's nor each other's.
+struct Alternatives {
+  static constexpr std::size_t kMost = 2;
+  enum Kind : std::uint8_t { kNone, kStart, kAbove, kAboveRight, kOther };
+
+  alignas(32) float range_m[kMost][8];  // 0: none
+  alignas(32) std::int32_t kind[kMost][8];
+
+  POINTREEL_INLINE Alternatives() {}
+
+  POINTREEL_INLINE void find(const Neighbourhood& cells, const RowMemory& memory, const Surroundings& around,
+                             const Float8& blend_m, const Float8& apart_m) {
+    Float8 first_m = all<8>(0), second_m = all<8>(0);
+    Int8 first_kind = all_ints<8>(kNone), second_kind = all_ints<8>(kNone);
+    const auto look_at = [&](const Float8& seen_m, Kind its_kind) HWY_ATTR {
+      const Mask<8> another = seen(seen_m) & (apart_m < absolute(seen_m - blend_m));
+      const Mask<8> second =
+          another & seen(first_m) & (second_m <= all<8>(0)) & (apart_m < absolute(seen_m - first_m));
+      const Mask<8> first = another & (first_m <= all<8>(0));
+      second_m = select(second, seen_m, second_m);
+      second_kind = select(as_int_mask(second), all_ints<8>(its_kind), second_kind);
+      first_m = select(first, seen_m, first_m);
+      first_kind = select(as_int_mask(first), all_ints<8>(its_kind), first_kind);
+    };
+    look_at(around.start, kStart);
+    look_at(around.above, kAbove);
+    look_at(around.above_right, kAboveRight);
+    look_at(around.above_right2, kOther);
+    look_at(memory.edge_m(), kOther);
+    look_at(memory.earlier_edge_m(), kOther);
+    look_at(around.above_left, kOther);
+    look_at(cells.range_m(0, -2), kOther);
+    store(first_m, range_m[0]);
+    store(first_kind, kind[0]);
+    store(second_m, range_m[1]);
+    store(second_kind, kind[1]);
+  }
+};
+
+class FastRangeModel {
+ public:
+  FastRangeModel(int columns, const BandSetting& setting, RangeModelState& state)
+      : step_m_(setting.quantiser.step_m),
+        per_step_(1 / step_m_),
+        on_lattice_(setting.quantiser.on_lattice()),
+        planes_(columns),
+        errors_(columns),
+        steps_(columns),
+        state_(state.fast) {
+    // Bins of small steps are coded in twos, fours or eights where errors are large.
+    constexpr float kWideM = 0.02F;
+    for (float wide_m = 2 * step_m_; wide_m <= kWideM && most_shift_ < kMostShift; wide_m = 2 * wide_m)
+      ++most_shift_;
+  }
+
+  void start_block(bool first, const std::array<float, Wavefront::kRows>& lattice_phase_m) {
+    if (!first) {
+      planes_.start_next_block();
+      errors_.start_next_block();
+      steps_.start_next_block();
+    }
+    memory_ = RowMemory();
+    lines_ = RowLines();
+    lattice_phase_m_ = lattice_phase_m;
+  }
+
+  // Eight cells without returns so far.
+  POINTREEL_INLINE void start_step() {
+    predicted_ = false;
+    store(all<8>(0), decoded_m_);
+    store(all_ints<8>(0), coded_steps_);
+  }
+
+  // Looks at what is known of them; only needed before code().
+  HWY_NOINLINE void predict(int step, const ReferencePlanes* /*none*/) {
+    const Neighbourhood cells(planes_, step);
+    const Surroundings around(cells, memory_, all<8>(0));
+    proposals_ = propose_fast(cells, memory_, lines_, around);
+    Float8 precision[kFastExperts];
+    const Blend blend = weigh<kFastExperts>(errors_, cells, step, step_m_, proposals_, precision);
+    store(blend.range_m, blend_m_);
+    const Int8 error = octaves<FastRangeState::kErrors>(blend.squared_error);
+    const Int8 spread = shifted_right<2>(octaves<4 * FastRangeState::kSpreads>(blend.spread));
+    const Int8 shift = shifts(error);
+    store(error, error_);
+    store(shift, shift_);
+    const Float8 apart_m =
+        (static_cast<float>(BinSymbols::kMostNear) * step_m_) * as_floats(power_of_two(shift));
+    alternatives_.find(cells, memory_, around, blend.range_m, apart_m);
+    constexpr std::int32_t kKinds = FastRangeState::kKinds, kSpreads = FastRangeState::kSpreads;
+    store(
+        (error * all_ints<8>(kSpreads) + spread) * all_ints<8>(kKinds) + load_ints<8>(alternatives_.kind[0]),
+        by_error_);
+    store(StepContexts::signs(steps_, step), by_signs_);
+    predicted_ = true;
+  }
+
+  // One of them holds a return whose range both sides know.
+  POINTREEL_INLINE float take_known(std::size_t cell, float range_m) { return decoded_m_[cell] = range_m; }
+
+  // (Nothing of one cell waits for another.)
+  POINTREEL_INLINE void start(std::size_t /*cell*/) {}
+  POINTREEL_INLINE void learn(std::size_t /*cell*/) {}
+
+  // Codes the range of one that holds a return and gives back the reconstruction, within half a step of
+  // `range_m` (which a decoder ignores).
+  template <class Coder>
+  POINTREEL_INLINE float code(Coder& coder, std::size_t cell, int /*row*/, float range_m) {
+    const std::int32_t shift = shift_[cell];
+    Bin bin{};
+    std::size_t symbol = 0;
+    if constexpr (!Coder::kDecodes) symbol = find_bin(cell, range_m, bin);
+    symbol = code_symbol(coder, state_.by_error, static_cast<std::size_t>(by_error_[cell]), state_.by_signs,
+                         static_cast<std::size_t>(by_signs_[cell]), symbol);
+    float origin_m = origin(cell, blend_m_[cell]);
+    if (symbol < BinSymbols::kAlternative) {
+      bin.coarse = code_rest(coder, symbol, bin.coarse);
+    } else if (symbol < BinSymbols::kFar) {
+      origin_m = origin(cell, alternatives_.range_m[symbol - BinSymbols::kAlternative][cell]);
+      bin.coarse = code_near_alternative(coder, cell, symbol - BinSymbols::kAlternative, bin.coarse);
+    } else {
+      bin.coarse = code_far(coder, static_cast<std::size_t>(error_[cell]), bin.coarse);
+    }
+    if (shift > 0) bin.fine = coder.code_bits(bin.fine, shift);
+    const std::int32_t steps = bin.coarse * (1 << shift) + static_cast<std::int32_t>(bin.fine) - half(shift);
+    const float decoded_m = origin_m + static_cast<float>(steps) * step_m_;
+    decoded_m_[cell] = decoded_m > kSmallestRangeM ? decoded_m : kSmallestRangeM;
+    const std::int32_t from_blend = symbol < BinSymbols::kAlternative ? steps
+                                    : decoded_m < blend_m_[cell]      ? -kMostContextSteps
+                                                                      : kMostContextSteps;
+    coded_steps_[cell] = std::clamp(from_blend, -kMostContextSteps, kMostContextSteps);
+    return decoded_m_[cell];
+  }
+
+  // What the eight decode to; 0 where there is no return.
+  POINTREEL_INLINE Float8 decoded_m() const { return load<8>(decoded_m_); }
+
+  // After the last of the eight: remembers them.
+  HWY_NOINLINE void remember(int step) {
+    const Float8 decoded_m = this->decoded_m();
+    const Float8 inverse = where(seen(decoded_m), all<8>(1) / larger(decoded_m, all<8>(kSmallestRangeM)));
+    lines_.add(decoded_m, inverse, memory_.last_m(), Neighbourhood(planes_, step).inverse_range(0, -1));
+    store(decoded_m, planes_.range_m.at(step));
+    store(inverse, planes_.inverse_range.at(step));
+    store(load_ints<8>(coded_steps_), steps_.at(step));
+    remember_errors(proposals_, decoded_m, predicted_, step_m_, step, errors_);
+    memory_.add(decoded_m);
+  }
+
+ private:
+  static constexpr int kMostShift = 3;
+
+  // Steps from an origin: coarse of 2^shift each, and the step within.
+  struct Bin {
+    std::int32_t coarse;
+    std::uint32_t fine;
+  };
+  static std::int32_t half(std::int32_t shift) { return (1 << shift) >> 1; }
+
+  float origin(std::size_t cell, float range_m) const {
+    return on_lattice_ ? nearest_on_lattice(range_m, step_m_, lattice_phase_m_[cell]) : range_m;
+  }
+  Bin bin_from(std::size_t cell, float origin_m, float range_m) const {
+    const std::int32_t shift = shift_[cell];
+    const std::int32_t steps = rounded((range_m - origin(cell, origin_m)) * per_step_) + half(shift);
+    return {steps >> shift, static_cast<std::uint32_t>(steps & ((1 << shift) - 1))};
+  }
+  static bool is_near(const Bin& bin) { return std::abs(bin.coarse) <= BinSymbols::kMostNear; }
+
+  // Near what the range is, and in which bin from there.
+  POINTREEL_INLINE std::size_t find_bin(std::size_t cell, float range_m, Bin& bin) const {
+    bin = bin_from(cell, blend_m_[cell], range_m);
+    if (is_near(bin)) return symbol_of(bin.coarse);
+    for (std::size_t i = 0; i < Alternatives::kMost && alternatives_.kind[i][cell] != Alternatives::kNone;
+         ++i) {
+      const Bin from_alternative = bin_from(cell, alternatives_.range_m[i][cell], range_m);
+      if (!is_near(from_alternative)) continue;
+      bin = from_alternative;
+      return BinSymbols::kAlternative + i;
+    }
+    return BinSymbols::kFar;
+  }
+
+  // Magnitudes 4,5 6..9 10..17 share a symbol: how many further bits there are, and what the others start
+  // from.
+  static int further_bits(std::size_t size) { return size <= 3 ? 0 : static_cast<int>(size) - 3; }
+  static std::int32_t smallest(std::size_t size) {
+    return size <= 3 ? static_cast<std::int32_t>(size) : 2 + (1 << (size - 3));
+  }
+  static std::size_t symbol_of(std::int32_t coarse) {
+    const auto magnitude = static_cast<std::uint32_t>(std::abs(coarse));
+    const std::size_t size =
+        magnitude <= 3 ? magnitude : static_cast<std::size_t>(std::bit_width(magnitude - 2)) + 2;
+    return coarse < 0 ? BinSymbols::kZero - size : BinSymbols::kZero + size;
+  }
+  template <class Coder>
+  static POINTREEL_INLINE std::int32_t code_rest(Coder& coder, std::size_t symbol, std::int32_t coarse) {
+    const bool below = symbol < BinSymbols::kZero;
+    const std::size_t size = below ? BinSymbols::kZero - symbol : symbol - BinSymbols::kZero;
+    std::int32_t magnitude = smallest(size);
+    if (size > 3) {
+      magnitude += static_cast<std::int32_t>(
+          coder.code_bits(static_cast<std::uint32_t>(std::abs(coarse) - magnitude), further_bits(size)));
+    }
+    return below ? -magnitude : magnitude;
+  }
+
+  template <class Coder>
+  HWY_NOINLINE std::int32_t code_near_alternative(Coder& coder, std::size_t cell, std::size_t alternative,
+                                                  std::int32_t coarse) {
+    const bool farther = alternatives_.range_m[alternative][cell] > blend_m_[cell];
+    const std::size_t table =
+        static_cast<std::size_t>(alternatives_.kind[alternative][cell]) * 2 + (farther ? 1 : 0);
+    std::size_t symbol = Coder::kDecodes ? 0 : symbol_of(coarse);
+    symbol = code_symbol(coder, state_.of_alternative, table, symbol);
+    return code_rest(coder, std::min(symbol, BinSymbols::kAlternative - 1), coarse);
+  }
+
+  // Sign and Exp-Golomb code of what is beyond kMostNear, the last two bits evenly.
+  template <class Coder>
+  HWY_NOINLINE std::int32_t code_far(Coder& coder, std::size_t error, std::int32_t coarse) {
+    constexpr std::int32_t kLeast = BinSymbols::kMostNear + 1;
+    const bool below = code_counted(coder, state_.far_sign[error], coarse < 0);
+    const auto beyond = static_cast<std::uint32_t>(std::max(0, std::abs(coarse) - kLeast));
+    const std::uint32_t quarter = (beyond >> 2) + 1;
+    int exponent = 0;
+    while (exponent + 1 < static_cast<int>(FastRangeState::kExponents) &&
+           code_counted(coder, state_.far_exponent[static_cast<std::size_t>(exponent)],
+                        quarter >> (exponent + 1) != 0))
+      ++exponent;
+    std::uint32_t value = 1;
+    for (int bit = exponent - 1; bit >= 0; --bit)
+      value = value << 1 | coder.code_bits(quarter >> bit & 1U, 1);
+    value = (value - 1) << 2 | coder.code_bits(beyond & 3U, 2);
+    // Exponents up to 27 keep this within 30 bits, and with the shift within what fits.
+    const std::int32_t magnitude = kLeast + static_cast<std::int32_t>(std::min(value, kMostBeyond));
+    return below ? -magnitude : magnitude;
+  }
+  static constexpr std::uint32_t kMostBeyond = 1U << 26;
+
+  template <class Coder>
+  static bool code_counted(Coder& coder, CountedBit& model, bool bit) {
+    bit = coder.code_with(bit, std::clamp(model.p_one(), kMinProbability, 65536 - kMinProbability));
+    model.update(bit);
+    return bit;
+  }
+
+  // Octaves of squared steps from 2^-6 on, clamped to kCount.
+  template <std::size_t kCount>
+  static POINTREEL_INLINE Int8 octaves(const Float8& squared_steps) {
+    constexpr float kFloor = 0.0016F;
+    const Int8 octave = shifted_right<23>(bits_of(squared_steps + all<8>(kFloor))) - all_ints<8>(127 - 6);
+    return larger(smaller(octave, all_ints<8>(static_cast<std::int32_t>(kCount) - 1)), all_ints<8>(0));
+  }
+  // From errors of 2^7 squared steps on, as far as steps are small: half their logarithm.
+  POINTREEL_INLINE Int8 shifts(const Int8& error) const {
+    const Int8 wide = shifted_right<1>(error - all_ints<8>(11));
+    return larger(smaller(wide, all_ints<8>(most_shift_)), all_ints<8>(0));
+  }
+  static POINTREEL_INLINE Int8 power_of_two(const Int8& shift) {
+    const Int8 one = all_ints<8>(1);
+    Int8 power = one;
+    for (int i = 0; i < kMostShift; ++i) power = power + where(shift > all_ints<8>(i), power);
+    return power;
+  }
+
+  float step_m_, per_step_;
+  bool on_lattice_;
+  std::int32_t most_shift_ = 0;
+  RangePlanes planes_;
+  ErrorPlanes<kFastExperts> errors_;
+  SkewedPlane<std::int32_t> steps_;  // clipped
+  RowMemory memory_;
+  RowLines lines_;
+  FastRangeState& state_;
+  std::array<float, Wavefront::kRows> lattice_phase_m_{};
+
+  // Of the eight cells at hand.
+  Proposals<kFastExperts> proposals_;
+  Alternatives alternatives_;
+  alignas(32) float blend_m_[Wavefront::kRows];
+  alignas(32) std::int32_t error_[Wavefront::kRows], shift_[Wavefront::kRows];
+  alignas(32) std::int32_t by_error_[Wavefront::kRows], by_signs_[Wavefront::kRows];
+  alignas(32) float decoded_m_[Wavefront::kRows];
+  alignas(32) std::int32_t coded_steps_[Wavefront::kRows];
+  bool predicted_ = false;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace pointreel
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target

@@ -1,0 +1,49 @@
+// Everything that the fast range model learns while it codes.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "entropy/bit_mixer.h"
+#include "predict/symbol_tables.h"
+
+namespace pointreel {
+
+// What a symbol says of a cell: its bin, as the distance from the one predicted, or where else to look.
+//
+//   0 .. 12     -(10..17) -(6..9) -(4,5) -3 -2 -1 0 1 2 3 4,5 6..9 10..17, with further bits
+//   13, 14      near the first or second alternative (fast_range_model-inl.h)
+//   15          far from all of them
+struct BinSymbols {
+  static constexpr std::size_t kZero = 6;
+  static constexpr std::size_t kAlternative = 13;
+  static constexpr std::size_t kFar = 15;
+  static constexpr std::int32_t kMostNear = 17;  // bins from the prediction
+};
+
+struct FastRangeState {
+  static constexpr std::size_t kErrors = 20;  // octaves of the blend's recent squared error
+  static constexpr std::size_t kSpreads = 4;  // four octaves each of how far the proposals lie apart
+  static constexpr std::size_t kKinds = 5;    // of an alternative: none, start, above, above right, another
+  static constexpr std::size_t kSigns = 125;  // of the steps around (step_context-inl.h)
+  static constexpr std::size_t kExponents = 28;
+
+  SymbolTables<kErrors * kSpreads * kKinds> by_error;
+  SymbolTables<kSigns> by_signs;
+  SymbolTables<kKinds * 2> of_alternative;  // nearer or farther than the prediction
+  std::array<CountedBit, kErrors> far_sign;
+  std::array<CountedBit, kExponents> far_exponent;
+};
+
+// Shows a visitor all that adapts, in the order of the tables of priors (priors.h).
+template <class State, class Visitor>
+void visit_fast_range_state(State& state, Visitor& visitor) {
+  visitor.symbols(state.by_error);
+  visitor.symbols(state.by_signs);
+  visitor.symbols(state.of_alternative);
+  for (auto& bit : state.far_sign) visitor.bit(bit);
+  for (auto& bit : state.far_exponent) visitor.bit(bit);
+}
+
+}  // namespace pointreel
