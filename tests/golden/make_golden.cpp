@@ -145,11 +145,17 @@ bool write_all(const std::string& folder) {
   fine.group = 2;
   coarse.max_error_m = 0.02;
   coarse.fields.named = {{"intensity", 0.05}};
+  MixtureOptions fast = fine, max = coarse;
+  fast.max_error_m = 0.002;
+  fast.effort = Effort::fast;
+  max.effort = Effort::max;
   MixtureOptions planes;
   planes.max_error_m = 0.1;
   return write(folder + "/mixture_v1_firing_order", firing, fine) &&
          write(folder + "/mixture_v1_compensated", {compensated(high[0].cloud, motion)}, coarse) &&
          write(folder + "/mixture_v1_scattered", {scattered(low[0].cloud)}, coarse) &&
+         write(folder + "/mixture_v1_fast", {low[0].cloud}, fast) &&
+         write(folder + "/mixture_v1_max", {low[0].cloud, low[1].cloud}, max) &&
          write(folder + "/planes_v1_sensor", {low[0].cloud, low[1].cloud, low[2].cloud}, planes,
                Method::planes);
 }
