@@ -92,6 +92,14 @@ POINTREEL_INLINE void store(const Floats<N>& a, float* lanes) {
   for (std::size_t i = 0; i < F::kParts; ++i)
     hn::StoreU(a.part[i], typename F::Tag(), lanes + i * F::kPartLanes);
 }
+// The first `count` of them.
+template <std::size_t N>
+POINTREEL_INLINE void store_first(const Floats<N>& a, float* lanes, std::size_t count) {
+  if (count >= N) return store(a, lanes);
+  float padded[N];
+  store(a, padded);
+  for (std::size_t i = 0; i < count; ++i) lanes[i] = padded[i];
+}
 template <std::size_t N>
 POINTREEL_INLINE Floats<N> all(float x) {
   return each<N>([&](std::size_t) HWY_ATTR { return hn::Set(typename Floats<N>::Tag(), x); });
@@ -191,6 +199,16 @@ POINTREEL_INLINE void store(const Ints<N>& a, std::int32_t* lanes) {
   using I = Ints<N>;
   for (std::size_t i = 0; i < I::kParts; ++i)
     hn::StoreU(a.part[i], typename I::Tag(), lanes + i * I::kPartLanes);
+}
+// The first `count` of them, as bytes.
+template <std::size_t N>
+POINTREEL_INLINE void store_first_bytes(const Ints<N>& a, std::uint8_t* bytes, std::size_t count) {
+  using I = Ints<N>;
+  const hn::Rebind<std::uint8_t, typename I::Tag> tag;
+  std::uint8_t padded[N];
+  std::uint8_t* to = count >= N ? bytes : padded;
+  for (std::size_t i = 0; i < I::kParts; ++i) hn::StoreU(hn::DemoteTo(tag, a.part[i]), tag, to + i * I::kPartLanes);
+  for (std::size_t i = 0; i < count && count < N; ++i) bytes[i] = padded[i];
 }
 template <std::size_t N>
 POINTREEL_INLINE Ints<N> all_ints(std::int32_t x) {
