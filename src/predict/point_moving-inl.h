@@ -7,8 +7,8 @@
 #define POINTREEL_PREDICT_POINT_MOVING_INL_H_
 #endif
 
-#include "base/trigonometry.h"
-#include "predict/lanes-inl.h"
+#include "base/arc_tangent-inl.h"
+#include "base/lanes-inl.h"
 #include "predict/point_moving.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,21 +17,6 @@ namespace HWY_NAMESPACE {
 
 inline constexpr float kNearestM = 0.05F;  // from the axis: nearer points have no direction
 inline constexpr float kFarthestM = 1e5F;  // whatever a damaged pose says, numbers stay finite
-
-// fast_atan2 of base/trigonometry.h.
-POINTREEL_INLINE Float8 arc_tangent(const Float8& y, const Float8& x) {
-  const Float8 ax = absolute(x), ay = absolute(y);
-  const Mask<8> steep = ax < ay;
-  const Float8 t = select(steep, ax, ay) / larger(select(steep, ay, ax), all<8>(1e-37F));
-  const Float8 t2 = t * t;
-  Float8 ratio = all<8>(kArcTangentCoefficients[9]);
-  for (int i = 8; i >= 0; --i) ratio = ratio * t2 + all<8>(kArcTangentCoefficients[i]);
-  constexpr auto kHalfTurn = static_cast<float>(kPi);
-  Float8 angle = ratio * t;
-  angle = select(steep, all<8>(kHalfTurn / 2) - angle, angle);
-  angle = select(x < all<8>(0), all<8>(kHalfTurn) - angle, angle);
-  return select(y < all<8>(0), all<8>(0) - angle, angle);
-}
 
 struct Positions {
   Float8 x_m, y_m, z_m;

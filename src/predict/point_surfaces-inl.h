@@ -7,7 +7,7 @@
 #define POINTREEL_PREDICT_POINT_SURFACES_INL_H_
 #endif
 
-#include "predict/lanes-inl.h"
+#include "base/lanes-inl.h"
 #include "predict/point_moving.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -9,7 +9,7 @@
 
 #include <utility>
 
-#include "predict/lanes-inl.h"
+#include "base/lanes-inl.h"
 #include "predict/warp_canvas.h"
 #include "predict/warped_points.h"
 

@@ -4,11 +4,11 @@
 // Compiled once per instruction set by Highway (see band_coding.cpp). Every operation is IEEE, lane by lane,
 // and sums have one fixed order, so that all instruction sets compute the same bits.
 
-#if defined(POINTREEL_PREDICT_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef POINTREEL_PREDICT_LANES_INL_H_
-#undef POINTREEL_PREDICT_LANES_INL_H_
+#if defined(POINTREEL_BASE_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef POINTREEL_BASE_LANES_INL_H_
+#undef POINTREEL_BASE_LANES_INL_H_
 #else
-#define POINTREEL_PREDICT_LANES_INL_H_
+#define POINTREEL_BASE_LANES_INL_H_
 #endif
 
 #include <cstddef>
@@ -207,7 +207,8 @@ POINTREEL_INLINE void store_first_bytes(const Ints<N>& a, std::uint8_t* bytes, s
   const hn::Rebind<std::uint8_t, typename I::Tag> tag;
   std::uint8_t padded[N];
   std::uint8_t* to = count >= N ? bytes : padded;
-  for (std::size_t i = 0; i < I::kParts; ++i) hn::StoreU(hn::DemoteTo(tag, a.part[i]), tag, to + i * I::kPartLanes);
+  for (std::size_t i = 0; i < I::kParts; ++i)
+    hn::StoreU(hn::DemoteTo(tag, a.part[i]), tag, to + i * I::kPartLanes);
   for (std::size_t i = 0; i < count && count < N; ++i) bytes[i] = padded[i];
 }
 template <std::size_t N>
@@ -294,6 +295,12 @@ template <std::size_t N>
 POINTREEL_INLINE Floats<N> gather(const float* values, const Ints<N>& index) {
   return each<N>([&](std::size_t i)
                      HWY_ATTR { return hn::GatherIndex(typename Floats<N>::Tag(), values, index.part[i]); });
+}
+template <std::size_t N>
+POINTREEL_INLINE Ints<N> gather(const std::int32_t* values, const Ints<N>& index) {
+  return each_int<N>([&](std::size_t i) HWY_ATTR {
+    return hn::GatherIndex(typename Ints<N>::Tag(), values, index.part[i]);
+  });
 }
 template <std::size_t N>
 POINTREEL_INLINE Mask<N> as_float_mask(const IntMask<N>& mask) {
