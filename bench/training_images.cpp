@@ -84,8 +84,9 @@ std::vector<TrainingDrive> training_drives(const std::vector<std::string>& sweep
 
 ReferenceImage reference_of(const TrainingDrive& drive, std::size_t i,
                             const std::vector<float>& previous_range_m) {
-  const ReferenceSweep previous =
-      reference_from(drive.model, drive.sweeps[i - 1].grid, previous_range_m, {}, 1);
+  GridImage image = drive.sweeps[i - 1].image;
+  image.range_m = previous_range_m;
+  const ReferenceSweep previous{drive.sweeps[i - 1].grid, std::move(image), {}};
   WarpMemory memory;
   return warp(drive.model, drive.sweeps[i].grid, previous, *drive.sweeps[i].T_previous_this, 1, memory);
 }

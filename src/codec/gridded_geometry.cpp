@@ -315,20 +315,20 @@ EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud&
     encoded.geometry.bursts.assign(bursts.begin(), bursts.end());
   }
   if (prediction != nullptr) draw_together(warp_memory.image, quantiser.step_m, image);
-  encoded.image = {std::move(sweep.grid), std::move(image), std::move(states), std::move(planes.tiles)};
+  encoded.image = {{std::move(sweep.grid), std::move(image), std::move(states)}, std::move(planes.tiles)};
   return encoded;
 }
 
 Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size_t points_out,
-                                       const ReferenceSweep* reference, const PlaneTiles& reference_planes,
-                                       ByteReader& reader) {
+                                       const CodedImage* reference, ByteReader& reader) {
   const auto& [model, max_error_m, effort, threads, plane_stage, warp_memory] = setting;
   const auto head = decode_head(model, reference != nullptr, reader);
   if (!head) return head.error();
   const SweepGrid* grid = &head->grid;
   const CodingGrid coding(model, *grid);
   std::optional<Prediction> prediction;
-  if (reference != nullptr) prediction.emplace(Prediction{*reference, reference_planes, *head->T_ref_cur});
+  if (reference != nullptr)
+    prediction.emplace(Prediction{reference->reference, reference->planes, *head->T_ref_cur});
   PlaneSection planes;
   if (plane_stage != PlaneStage::none) {
     const SensorRays rays = rays_of(model, *grid, coding);
@@ -393,7 +393,7 @@ Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size
     result.positions[i] = stray ? strays[next_stray++].position : positions[cells[next_cell++]];
   }
   if (reference != nullptr) draw_together(warp_memory.image, head->quantiser.step_m, image);
-  result.image = {*grid, std::move(image), *std::move(states), std::move(planes.tiles)};
+  result.image = {{*grid, std::move(image), *std::move(states)}, std::move(planes.tiles)};
   return result;
 }
 

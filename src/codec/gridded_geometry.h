@@ -26,13 +26,10 @@ struct CodedGeometry {
   std::vector<std::uint32_t> bursts;  // sizes, where the output order has yet to be sorted by them
 };
 
-// What the next sweep can be predicted from: the decoded ranges on their grid, in predicted frames drawn
-// towards what those before said (predict/reference_sweep.h).
+// What the next sweep can be predicted from.
 struct CodedImage {
-  SweepGrid grid;
-  GridImage image;                // empty for a sweep without a grid
-  std::vector<BandState> states;  // ReferenceSweep::states
-  PlaneTiles planes;              // of method `planes`
+  ReferenceSweep reference;  // empty for a sweep without a grid
+  PlaneTiles planes;         // of method `planes`
 };
 
 // What both sides know of the sensor and the stream.
@@ -70,8 +67,7 @@ struct DecodedGeometry {
 // `reference`: nullptr for a frame by itself. Error: truncated or corrupt; also when there are not
 // `points_out` points.
 Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size_t points_out,
-                                       const ReferenceSweep* reference, const PlaneTiles& reference_planes,
-                                       ByteReader& reader);
+                                       const CodedImage* reference, ByteReader& reader);
 
 // The planes of a sweep and the grid that they are on.
 struct GriddedPlanes {

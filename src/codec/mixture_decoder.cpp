@@ -92,17 +92,11 @@ class MixtureDecoder final : public Decoder::Implementation {
     const auto begun = begin(packet, reference_frame_, reader);
     if (!begun) return begun.error();
     const SweepCoding coding = *begun;
-    ReferenceSweep reference;
-    if (coding == SweepCoding::predicted)
-      reference =
-          reference_from(model_, last_image_.grid, last_image_.image.range_m, last_image_.states, threads_);
-
     auto geometry =
         coding == SweepCoding::scattered
             ? decode_scattered_sweep(packet, reader)
             : decode_gridded(geometry_setting(header_, model_, threads_, warp_memory_), packet.points_out,
-                             coding == SweepCoding::predicted ? &reference : nullptr, last_image_.planes,
-                             reader);
+                             coding == SweepCoding::predicted ? &last_image_ : nullptr, reader);
     if (!geometry) return geometry.error();
     const std::size_t field_bytes = ByteReader(reader).rest().size();  // a copy: rest() takes them
     for (const Point3f& position : geometry->positions) {
@@ -111,11 +105,11 @@ class MixtureDecoder final : public Decoder::Implementation {
     auto fields = decode_fields(geometry->geometry, threads_, reader);
     if (!fields) return fields.error();
     if (!reader.rest().empty()) return Error{ErrorCode::corrupt, "bytes follow its fields"};
-    if (!geometry->image.image.range_m.empty()) {
+    if (!geometry->image.reference.image.range_m.empty()) {
       last_image_ = std::move(geometry->image);
       reference_frame_ = packet.frame;
       if (header_.method == Method::planes) {
-        last_planes_ = {last_image_.grid, last_image_.planes};
+        last_planes_ = {last_image_.reference.grid, last_image_.planes};
         planes_frame_ = packet.frame;
       }
     }

@@ -84,15 +84,14 @@ class MixtureEncoder final : public Encoder::Implementation {
       }
       reference_frame = T_ref_cur ? packet.frame - 1 : *model_frame_;
       const auto prediction =
-          T_ref_cur ? std::optional(Prediction{reference_, reference_planes_, *T_ref_cur}) : std::nullopt;
+          T_ref_cur ? std::optional(Prediction{last_image_.reference, last_image_.planes, *T_ref_cur})
+                    : std::nullopt;
       encoded = encode_gridded(geometry_setting(header_, *model_, threads_, warp_memory_), cloud,
                                *std::move(gridded), bursts, prediction ? &*prediction : nullptr, writer,
                                packet.statistics);
       ++model_age_;
       if (temporal_ && !starts_group()) {
-        reference_ = reference_from(*model_, encoded.image.grid, encoded.image.image.range_m,
-                                    std::move(encoded.image.states), threads_);
-        reference_planes_ = std::move(encoded.image.planes);
+        last_image_ = std::move(encoded.image);
       }
     } else {
       encoded = encode_scattered_sweep(cloud, writer, packet.statistics);
@@ -178,8 +177,7 @@ class MixtureEncoder final : public Encoder::Implementation {
   std::optional<SweepGrid> last_grid_;        // of the sweep before
   bool temporal_;
   SweepAlignment alignment_;
-  ReferenceSweep reference_;  // the sweep before, as decoded
-  PlaneTiles reference_planes_;
+  CodedImage last_image_;
   WarpMemory warp_memory_;
   int model_age_ = 0;  // sweeps coded with it
   std::uint32_t next_frame_ = 0;

@@ -30,14 +30,13 @@ class SweepAlignment {
       const Pose given = before && T_world_sensor ? before->inverse() * *T_world_sensor : Pose::Identity();
       return quantised(given) ? std::optional(given) : std::nullopt;
     }
-    MeasuredGrid current(model, sweep.grid);
     auto current_m = ranges_by_cell(model, sweep);
+    GridRays current(MeasuredGrid(model, sweep.grid).with(current_m));
     std::optional<Pose> T_ref_cur;
     if (!is_key && reference_) {
       std::optional<Pose> guess = motion_;
       if (T_world_reference_ && T_world_sensor) guess = T_world_reference_->inverse() * *T_world_sensor;
-      const Registration registration =
-          register_sweeps(reference_->with(reference_m_), current.with(current_m), guess);
+      const Registration registration = register_sweeps(*reference_, current, guess);
       if (registration.converged) T_ref_cur = registration.T_ref_cur;
       motion_ = T_ref_cur;
     }
@@ -49,8 +48,8 @@ class SweepAlignment {
 
  private:
   bool registers_;
-  std::optional<MeasuredGrid> reference_;
-  std::vector<float> reference_m_;  // by cell of the sensor grid
+  std::optional<GridRays> reference_;
+  std::vector<float> reference_m_;  // that it looks at
   std::optional<Pose> T_world_reference_;
   std::optional<Pose> motion_;  // of the last step
 };

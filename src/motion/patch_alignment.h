@@ -1,7 +1,7 @@
 // align_patches: the pose at which patches of one sweep's surfaces fit a reference, whatever that is made of.
 //
-// A reference has `std::optional<Eigen::Vector3f> partner_m(p_m, normal) const`: the point of its surfaces
-// that a patch at p_m is to be compared with, or none.
+// A reference has `void measure(PatchBlock&) const`, which fills in how far its surfaces are from the planes
+// of patches.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -15,6 +15,7 @@
 #include <span>
 #include <vector>
 
+#include "motion/patch_block.h"
 #include "motion/registration.h"
 #include "motion/surface_patches.h"
 
@@ -48,11 +49,20 @@ void for_each_match(const Pose& T_ref_cur, const Reference& reference, std::span
                     const Use& use) {
   const Eigen::Matrix3f rotation = T_ref_cur.linear().cast<float>();
   const Eigen::Vector3f translation_m = T_ref_cur.translation().cast<float>();
-  for (const SurfacePatch& patch : patches) {
-    const Eigen::Vector3f p_m = rotation * patch.center_m + translation_m;
-    const Eigen::Vector3f normal = rotation * patch.normal;
-    const std::optional<Eigen::Vector3f> partner_m = reference.partner_m(p_m, normal);
-    if (partner_m) use(p_m, normal, normal.dot(p_m - *partner_m));
+  PatchBlock block;
+  for (std::size_t first = 0; first < patches.size(); first += block.count) {
+    block.count = std::min(PatchBlock::kMost, patches.size() - first);
+    for (std::size_t i = 0; i < block.count; ++i) {
+      const SurfacePatch& patch = patches[first + i];
+      block.set(i, rotation * patch.center_m + translation_m, rotation * patch.normal);
+    }
+    for (std::size_t i = block.count; i % PatchBlock::kLanes != 0; ++i)
+      block.set(i, Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero());
+    reference.measure(block);
+    for (std::size_t i = 0; i < block.count; ++i) {
+      if (block.distance_m[i] < PatchBlock::kNoPartner)
+        use(block.center_m(i), block.normal(i), block.distance_m[i]);
+    }
   }
 }
 

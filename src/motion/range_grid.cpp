@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace pointreel {
 namespace {
@@ -50,35 +51,36 @@ GridRays::GridRays(const RangeGrid& grid) : range_m_(grid.range_m) {
     highest = std::max(highest, row.slope);
     offsets_m += row.offset_m;
   }
-  mean_offset_m_ = static_cast<float>(offsets_m / static_cast<double>(rows_.size()));
+  directions_.mean_offset_m = static_cast<float>(offsets_m / static_cast<double>(rows_.size()));
 
   const std::size_t bins = std::bit_ceil(4 * columns);
-  bins_per_rad_ = static_cast<float>(static_cast<double>(bins) / (2 * kPi));
-  column_of_bin_.assign(bins, -1);
-  columns_.reserve(columns);
+  directions_.bins_per_rad = static_cast<float>(static_cast<double>(bins) / (2 * kPi));
+  directions_.column_of_bin.assign(bins, -1);
+  cos_azimuth_.reserve(columns);
+  sin_azimuth_.reserve(columns);
   for (std::size_t c = 0; c < columns; ++c) {
     const double azimuth_rad = grid.column_azimuth_rad[c];
-    columns_.push_back(
-        {static_cast<float>(std::cos(azimuth_rad)), static_cast<float>(std::sin(azimuth_rad))});
+    cos_azimuth_.push_back(static_cast<float>(std::cos(azimuth_rad)));
+    sin_azimuth_.push_back(static_cast<float>(std::sin(azimuth_rad)));
     const auto bin =
-        static_cast<std::uint64_t>(std::llrint(azimuth_rad * static_cast<double>(bins_per_rad_)));
-    column_of_bin_[bin & (bins - 1)] = static_cast<std::int32_t>(c);
+        static_cast<std::uint64_t>(std::llrint(azimuth_rad * static_cast<double>(directions_.bins_per_rad)));
+    directions_.column_of_bin[bin & (bins - 1)] = static_cast<std::int32_t>(c);
   }
-  fill_from_nearest(column_of_bin_);
+  fill_from_nearest(directions_.column_of_bin);
 
   // Rows go from top to bottom, bins of slope from bottom to top.
-  row_of_bin_.resize(16 * rows_.size());
-  lowest_slope_ = static_cast<float>(lowest);
-  const double step = std::max(highest - lowest, 1e-3) / static_cast<double>(row_of_bin_.size());
-  bins_per_slope_ = static_cast<float>(1 / step);
+  directions_.row_of_bin.resize(16 * rows_.size());
+  directions_.lowest_slope = static_cast<float>(lowest);
+  const double step = std::max(highest - lowest, 1e-3) / static_cast<double>(directions_.row_of_bin.size());
+  directions_.bins_per_slope = static_cast<float>(1 / step);
   int row = row_count() - 1;
   const auto away = [&](int r, double slope) {
     return std::fabs(grid.rows[static_cast<std::size_t>(r)].slope - slope);
   };
-  for (std::size_t bin = 0; bin < row_of_bin_.size(); ++bin) {
+  for (std::size_t bin = 0; bin < directions_.row_of_bin.size(); ++bin) {
     const double slope = lowest + (static_cast<double>(bin) + 0.5) * step;
     while (row > 0 && away(row - 1, slope) <= away(row, slope)) --row;
-    row_of_bin_[bin] = row;
+    directions_.row_of_bin[bin] = row;
   }
 }
 

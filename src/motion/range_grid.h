@@ -3,10 +3,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -37,16 +35,16 @@ class GridRays {
   explicit GridRays(const RangeGrid& grid);
 
   int row_count() const { return static_cast<int>(rows_.size()); }
-  int column_count() const { return static_cast<int>(columns_.size()); }
+  int column_count() const { return static_cast<int>(cos_azimuth_.size()); }
   float range_m(int row, int column) const { return range_m_[index(row, column)]; }
 
   // Meaningless where there is no return.
   Eigen::Vector3f point_m(int row, int column) const {
     const Row& r = rows_[static_cast<std::size_t>(row)];
-    const Column& c = columns_[static_cast<std::size_t>(column)];
+    const auto c = static_cast<std::size_t>(column);
     const float rho_m = range_m(row, column) * r.cos_elevation;
-    const float cosine = c.cos * r.cos_azimuth - c.sin * r.sin_azimuth;
-    const float sine = c.sin * r.cos_azimuth + c.cos * r.sin_azimuth;
+    const float cosine = cos_azimuth_[c] * r.cos_azimuth - sin_azimuth_[c] * r.sin_azimuth;
+    const float sine = sin_azimuth_[c] * r.cos_azimuth + cos_azimuth_[c] * r.sin_azimuth;
     return {rho_m * cosine - r.side_offset_m * sine, rho_m * sine + r.side_offset_m * cosine,
             r.slope * rho_m + r.offset_m};
   }
@@ -62,80 +60,33 @@ class GridRays {
     return column < 0 ? column + count : column >= count ? column - count : column;
   }
 
-  struct Cell {
-    int row = -1, column = 0;
-  };
-  // Of the cells that look towards a point or just beside it, the one whose return is as far away as the
-  // point, or most nearly so; negative row: none has a return.
-  Cell return_near(const Eigen::Vector3f& p_m) const {
-    const float rho_m = std::sqrt(p_m.x() * p_m.x() + p_m.y() * p_m.y());
-    const int middle = row_towards(rho_m, p_m.z());
-    if (middle < 0) return {};
-    const Row& r = rows_[static_cast<std::size_t>(middle)];
-    const float azimuth_rad = fast_atan2(p_m.y(), p_m.x()) - r.azimuth_rad - r.side_offset_m / rho_m;
-    const auto bin = static_cast<std::uint32_t>(std::lrint(azimuth_rad * bins_per_rad_));
-    const int column = column_of_bin_[bin & (static_cast<std::uint32_t>(column_of_bin_.size()) - 1)];
-    Cell best;
-    float best_away_m = std::numeric_limits<float>::infinity();
-    const int last = std::min(middle + 1, row_count() - 1);
-    for (int row = std::max(middle - 1, 0); row <= last; ++row) {
-      const float cos_elevation = rows_[static_cast<std::size_t>(row)].cos_elevation;
-      const int same = same_direction(column, middle, row);
-      for (int beside = -1; beside <= 1; ++beside) {
-        const int c = wrapped(same + beside);
-        const float range = range_m(row, c);
-        const float distance_m = std::fabs(range * cos_elevation - rho_m);
-        if (!(range > 0) || !(distance_m < best_away_m)) continue;
-        best = {row, c};
-        best_away_m = distance_m;
-      }
-    }
-    return best;
-  }
-
- private:
   struct Row {
     float slope, offset_m, azimuth_rad, side_offset_m, cos_elevation, cos_azimuth, sin_azimuth;
-    int turned_by;  // whole columns by which the row is ahead of the columns' azimuth, within a turn
+    std::int32_t turned_by;  // whole columns by which the row is ahead of the columns' azimuth, within a turn
   };
-  struct Column {
-    float cos, sin;
-  };
+  // For SIMD code, which looks at many cells at once.
+  std::span<const Row> rows() const { return rows_; }
+  std::span<const float> ranges_m() const { return range_m_; }
+  std::span<const float> cos_azimuth() const { return cos_azimuth_; }  // of the columns
+  std::span<const float> sin_azimuth() const { return sin_azimuth_; }
 
+  // Directions in equal steps.
+  struct Directions {
+    std::vector<std::int32_t> column_of_bin;  // azimuth from 0, a power of two of them
+    std::vector<std::int32_t> row_of_bin;     // slope from the lowest
+    float bins_per_rad = 0, bins_per_slope = 0, lowest_slope = 0, mean_offset_m = 0;
+  };
+  const Directions& directions() const { return directions_; }
+
+ private:
   std::size_t index(int row, int column) const {
-    return static_cast<std::size_t>(row) * columns_.size() + static_cast<std::size_t>(column);
+    return static_cast<std::size_t>(row) * cos_azimuth_.size() + static_cast<std::size_t>(column);
   }
-  int row_towards(float rho_m, float z_m) const {
-    if (rows_.empty() || !(rho_m > kNearestM)) return -1;
-    const auto last = static_cast<float>(row_of_bin_.size() - 1);
-    const float bin = ((z_m - mean_offset_m_) / rho_m - lowest_slope_) * bins_per_slope_;
-    if (!(bin > -kSlack && bin < last + kSlack)) return -1;
-    int row = row_of_bin_[static_cast<std::size_t>(bin < 0 ? 0 : bin > last ? last : bin)];
-    // Offsets differ between rows, which matters near the sensor.
-    float away = height_above(row, rho_m, z_m);
-    const int step = away > 0 ? -1 : 1;
-    for (int next = row + step; next >= 0 && next < row_count(); next += step) {
-      const float next_away = height_above(next, rho_m, z_m);
-      if (std::fabs(next_away) >= std::fabs(away)) break;
-      row = next;
-      away = next_away;
-    }
-    return row;
-  }
-  float height_above(int row, float rho_m, float z_m) const {
-    const Row& r = rows_[static_cast<std::size_t>(row)];
-    return z_m - r.offset_m - r.slope * rho_m;
-  }
-
-  static constexpr float kNearestM = 0.1F;
-  static constexpr float kSlack = 4;  // bins beyond the outermost rows
 
   std::vector<Row> rows_;
-  std::vector<Column> columns_;
+  std::vector<float> cos_azimuth_, sin_azimuth_;
   std::span<const float> range_m_;
-  std::vector<std::int32_t> column_of_bin_;  // azimuth from 0 in equal steps, a power of two of them
-  std::vector<std::int32_t> row_of_bin_;     // slope from the lowest in equal steps
-  float bins_per_rad_ = 0, bins_per_slope_ = 0, lowest_slope_ = 0, mean_offset_m_ = 0;
+  Directions directions_;
 };
 
 }  // namespace pointreel

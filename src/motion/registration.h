@@ -14,12 +14,12 @@
 namespace pointreel {
 
 struct RegistrationSettings {
-  int patches = 1600;        // of the last rounds
+  int patches = 2400;        // of the last rounds
   int coarse_patches = 500;  // of the rounds that find the way
   int rounds = 5;            // at most, of the last ones
 };
 
-// Two thirds of the time; hardly worse where there is much to see.
+// Half the time; hardly worse where there is much to see.
 inline constexpr RegistrationSettings kQuickRegistration{1000, 400, 3};
 
 struct Registration {
@@ -37,8 +37,14 @@ struct Registration {
 // alike in every sweep. `guess`: a pose that may be near, such as the last motion of a vehicle that goes on,
 // or that of a pose file. Without a good one displacements up to about 3 m and 5 degrees are found. Any grids
 // and any guess give a finite pose.
-Registration register_sweeps(const RangeGrid& reference, const RangeGrid& current,
+Registration register_sweeps(const GridRays& reference, const GridRays& current,
                              const std::optional<Pose>& guess = {},
                              const RegistrationSettings& settings = {});
+
+inline Registration register_sweeps(const RangeGrid& reference, const RangeGrid& current,
+                                    const std::optional<Pose>& guess = {},
+                                    const RegistrationSettings& settings = {}) {
+  return register_sweeps(GridRays(reference), GridRays(current), guess, settings);
+}
 
 }  // namespace pointreel

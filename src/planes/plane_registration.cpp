@@ -34,6 +34,16 @@ class PlanesByDirection {
       tiles_[next[bin_of_tile[i]]++] = {sweep.tiles[i].center_m, sweep.tiles[i].plane};
   }
 
+  // For align_patches.
+  void measure(PatchBlock& block) const {
+    for (std::size_t i = 0; i < block.count; ++i) {
+      const Eigen::Vector3f p_m = block.center_m(i), normal = block.normal(i);
+      const auto partner = partner_m(p_m, normal);
+      block.distance_m[i] = partner ? normal.dot(p_m - *partner) : PatchBlock::kNoPartner;
+    }
+  }
+
+ private:
   // Where the plane of the nearest tile that faces the same way is nearest to a point.
   std::optional<Eigen::Vector3f> partner_m(const Eigen::Vector3f& p_m, const Eigen::Vector3f& normal) const {
     constexpr float kSameDirection = 0.97F;
@@ -62,7 +72,6 @@ class PlanesByDirection {
     return p_m - (nearest->normal.dot(p_m) - nearest->distance_m) * nearest->normal;
   }
 
- private:
   static constexpr int kAcross = 256, kUp = 64;
   static constexpr float kLowestSlope = -0.8F, kBinsPerSlope = 60;
   struct Facet {

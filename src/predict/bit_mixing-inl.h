@@ -14,7 +14,7 @@
 #include <cstdint>
 
 #include "entropy/bit_mixer.h"
-#include "predict/lanes-inl.h"
+#include "base/lanes-inl.h"
 #include "predict/mixer_weights.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -11,63 +12,74 @@
 
 namespace pointreel {
 
+// A turn in equal bins, and in each a straight line: SIMD code asks for many directions at once. Of two turns
+// the first that has a direction answers.
 class ColumnFinder {
  public:
-  explicit ColumnFinder(const SweepGrid& grid) : turn_of_column_(grid.column_count()) {
-    for (std::size_t c = 0; c < turn_of_column_.size(); ++c) {
-      turn_of_column_[c] = static_cast<float>(static_cast<double>(grid.column_tick[c]) / grid.ticks_per_turn);
+  static constexpr float kNowhere = -1;  // any number up to this: farther than kMostBeyond from all columns
+
+  // There must be a column.
+  explicit ColumnFinder(const SweepGrid& grid) {
+    const std::size_t columns = grid.column_count();
+    const auto turn_of = [&](std::size_t c) {
+      return static_cast<double>(grid.column_tick[c]) / grid.ticks_per_turn;
+    };
+    const double first_turn = turn_of(0), turns = turn_of(columns - 1) - first_turn;
+    constexpr double kLoneColumnTurns = 1e-3;  // to each side
+    const double mean_step = columns > 1 ? turns / static_cast<double>(columns - 1) : kLoneColumnTurns;
+    bins_ = std::bit_ceil(static_cast<std::size_t>(std::clamp(4 / mean_step, kLeastBins, kMostBins)));
+    at_start_.assign(bins_ + 1, kUnknown);
+    per_bin_.assign(bins_ + 1, 0);
+    for (std::size_t c = 0; c < columns; ++c) {
+      const bool last = c + 1 == columns;
+      const double here = turn_of(c);
+      const double step = columns == 1 ? kLoneColumnTurns
+                          : last       ? here - turn_of(c - 1)
+                                       : turn_of(c + 1) - here;
+      fill(c == 0 ? here - kMostBeyond * step : here, last ? here + kMostBeyond * step : here + step,
+           static_cast<double>(c), here, step);
     }
-    // For each bin the last column that begins before it, or the first.
-    first_of_bin_.resize(2 * kBinsPerTurn + 1);
-    std::size_t column = 0;
-    for (std::size_t bin = 0; bin < first_of_bin_.size(); ++bin) {
-      const float start = static_cast<float>(bin) / kBinsPerTurn;
-      while (column + 1 < turn_of_column_.size() && turn_of_column_[column + 1] <= start) ++column;
-      first_of_bin_[bin] = static_cast<std::uint16_t>(column);
+    for (std::size_t bin = 0; bin < bins_; ++bin) {
+      const float rise = at_start_[bin + 1] - at_start_[bin];
+      if (at_start_[bin] > kNowhere && rise > 0) per_bin_[bin] = rise;
     }
   }
 
-  // The column at an azimuth of `turn` turns, in [0, 1], as a number between its neighbours; negative: it
-  // lies farther than kMostBeyond columns from all. Of two turns the first that has it. There must be a
-  // column.
-  float position(float turn) const {
-    const float first_turn = turn_of_column_.front();
-    const float in_first = position_of(turn);
-    if (in_first >= 0 && turn >= first_turn) return in_first;
-    const float in_second = position_of(turn + 1);
-    return in_second >= 0 ? in_second : in_first;
-  }
+  // How `bins()` times the turns, in [0, 1], become columns: that of the bin's start and the rise within it.
+  // Below 0 but not nowhere is a hair before the first column.
+  std::size_t bins() const { return bins_; }
+  const float* at_start() const { return at_start_.data(); }
+  const float* per_bin() const { return per_bin_.data(); }
 
-  // The column nearest to that of another sweep; negative: none is near.
-  std::int32_t nearest_to(const ColumnFinder& other, std::size_t column) const {
-    float turn = other.turn_of_column_[column];
-    turn -= turn >= 1 ? 1.0F : 0.0F;
-    const float found = position(turn);
-    const auto last = static_cast<std::int32_t>(turn_of_column_.size()) - 1;
-    return found < 0 ? -1 : std::min(last, static_cast<std::int32_t>(found + 0.5F));
+  // The column nearest to an azimuth of `turn` turns, in [0, 1]; negative: none is near.
+  std::int32_t nearest(float turn, std::int32_t columns) const {
+    const float place = turn * static_cast<float>(bins_);
+    const auto bin = static_cast<std::size_t>(place);
+    const float column = at_start_[bin] + (place - static_cast<float>(bin)) * per_bin_[bin];
+    if (column <= kNowhere) return -1;
+    return std::min(columns - 1, static_cast<std::int32_t>(std::max(column, 0.0F) + 0.5F));
   }
 
  private:
-  static constexpr int kBinsPerTurn = 8192;  // KITTI has 2,160 columns in a turn
-  static constexpr float kMostBeyond = 0.6F;
+  static constexpr double kLeastBins = 1024, kMostBins = 65536;
+  static constexpr double kMostBeyond = 0.6;
+  static constexpr float kUnknown = -1e6F;
 
-  // The same for a turn in [0, 2]; a hair before the first column is that column.
-  float position_of(float turn) const {
-    std::size_t c = first_of_bin_[static_cast<std::size_t>(static_cast<std::int32_t>(turn * kBinsPerTurn))];
-    while (c + 1 < turn_of_column_.size() && turn_of_column_[c + 1] <= turn) ++c;
-    const bool last = c + 1 == turn_of_column_.size();
-    if (last && c == 0) return std::fabs(turn - turn_of_column_[0]) < kLoneColumnTurns ? 0.0F : -1.0F;
-    const float step =
-        last ? turn_of_column_[c] - turn_of_column_[c - 1] : turn_of_column_[c + 1] - turn_of_column_[c];
-    const float beyond = (turn - turn_of_column_[c]) / step;
-    if (beyond < -kMostBeyond || (last && beyond > kMostBeyond)) return -1;
-    return static_cast<float>(c) + (beyond > 0 ? beyond : 0);
+  // Bins that start in [from_turn, to_turn), of two turns.
+  void fill(double from_turn, double to_turn, double column, double at_turn, double step) {
+    const double bins = static_cast<double>(bins_);
+    for (auto bin = static_cast<std::size_t>(std::ceil(std::max(0.0, from_turn * bins))); bin <= 2 * bins_;
+         ++bin) {
+      const double turn = static_cast<double>(bin) / bins;
+      if (turn >= to_turn) return;
+      const auto place = static_cast<float>(column + (turn - at_turn) / step);
+      if (bin <= bins_) at_start_[bin] = place;
+      if (bin >= bins_ && at_start_[bin - bins_] < 0) at_start_[bin - bins_] = place;
+    }
   }
 
-  static constexpr float kLoneColumnTurns = 1e-3F;
-
-  std::vector<float> turn_of_column_;
-  std::vector<std::uint16_t> first_of_bin_;  // columns: at most 65536
+  std::size_t bins_ = 0;
+  std::vector<float> at_start_, per_bin_;
 };
 
 }  // namespace pointreel

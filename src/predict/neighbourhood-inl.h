@@ -7,7 +7,7 @@
 #define POINTREEL_PREDICT_NEIGHBOURHOOD_INL_H_
 #endif
 
-#include "predict/lanes-inl.h"
+#include "base/lanes-inl.h"
 #include "predict/wavefront.h"
 
 HWY_BEFORE_NAMESPACE();

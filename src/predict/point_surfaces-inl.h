@@ -7,7 +7,7 @@
 #define POINTREEL_PREDICT_POINT_SURFACES_INL_H_
 #endif
 
-#include "predict/lanes-inl.h"
+#include "base/lanes-inl.h"
 #include "predict/point_moving.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -62,58 +62,46 @@ struct SurfaceSlopes {
   }
 };
 
-// Column indices less than two widths off: a turned row, and a last column of its own.
+// Column indices less than two widths too far: a turned row, and a last column of its own.
 POINTREEL_INLINE Int8 wrapped(const Int8& column, int columns) {
   const Int8 width = all_ints<8>(columns), last = all_ints<8>(columns - 1);
-  Int8 wrapped = column + where(all_ints<8>(0) > column, width);
-  wrapped = wrapped - where(wrapped > last, width);
-  return wrapped - where(wrapped > last, width);
+  const Int8 once = column - where(column > last, width);
+  return once - where(once > last, width);
 }
 
-inline void find_surfaces_of_row(int row, int columns, const WarpTarget& target, WarpedPoints& points) {
+inline void find_surfaces_of_row(int row, int columns, const WarpTarget& target, const WarpCanvas& canvas,
+                                 WarpedPoints& points) {
   const auto stride = static_cast<std::ptrdiff_t>(points.stride());
   const auto width = static_cast<float>(target.columns);
-  const Int8 none = all_ints<8>(WarpedPoints::kNone), one = all_ints<8>(1);
+  const Int8 none = all_ints<8>(WarpedPoints::kNone), first_cell = all_ints<8>(canvas.first_of_row(0));
+  const Float8 one = all<8>(1), half = all<8>(0.5F);
   for (std::size_t at = points.index(row, 0); at < points.index(row, columns); at += 8) {
     const SurfaceStep right(points, at, 1, width), left(points, at, -1, width);
     const SurfaceStep below(points, at, stride, width), above(points, at, -stride, width);
     const SurfaceSlopes slopes(right, left, below, above);
-    store(slopes.per_column, &points.per_column[at]);
-    store(slopes.per_row, &points.per_row[at]);
     const auto side = [](const SurfaceStep& step, SurfaceSide bit)
                           HWY_ATTR { return where(as_int_mask(step.same), all_ints<8>(bit)); };
-    // Rounded down, from -1 on; those that are no points are anywhere.
+    store((side(right, kRight) | side(left, kLeft)) | (side(below, kBelow) | side(above, kAbove)),
+          &points.sides[at]);
+
+    // Those that are no points are anywhere. Rows from -1 on, rounded.
     const Mask<8> is_point = all<8>(0) < load<8>(&points.range_m[at]);
     const Float8 at_row = where(is_point, load<8>(&points.row[at]));
     const Float8 at_column = where(is_point, load<8>(&points.column[at]));
-    const Int8 upper = truncated(at_row + all<8>(1)) - one;
-    const Int8 left_column = truncated(at_column + all<8>(1)) - one;
-    const auto cell_at = [&](const Int8& cell_row, const Int8& cell_column) HWY_ATTR {
-      return (cell_row + one) * all_ints<8>(target.columns) + cell_column;
-    };
-    const Int8 wrapped_left = wrapped(left_column, target.columns);
-    store(select(as_int_mask(is_point), cell_at(upper, wrapped_left), none), &points.upper_left[at]);
-    const IntMask<8> at_seam = wrapped_left == all_ints<8>(target.columns - 1);
-    store((side(right, kRight) | side(left, kLeft)) | (side(below, kBelow) | side(above, kAbove)) |
-              where(at_seam, all_ints<8>(kAtSeam)),
-          &points.sides[at]);
-
-    const Float8 row_part = at_row - as_floats(upper), column_part = at_column - as_floats(left_column);
-    const Mask<8> goes_down = all<8>(0.5F) < row_part, goes_right = all<8>(0.5F) < column_part;
-    const Int8 near_row = upper + where(as_int_mask(goes_down), one);
-    const Int8 near_column = left_column + where(as_int_mask(goes_right), one);
+    const Int8 near_row = truncated(at_row + (one + half)) - all_ints<8>(1);
+    const Int8 near_column = truncated(at_column + half);
     const IntMask<8> outside = (all_ints<8>(0) > near_row) | (near_row > all_ints<8>(target.rows - 1));
-    const Float8 rows_off = where(goes_down, all<8>(1)) - row_part;
-    const Float8 columns_off = where(goes_right, all<8>(1)) - column_part;
-    const Float8 u = select(is_point, load<8>(&points.inverse_rho[at]), all<8>(1));
+    const Float8 rows_off = as_floats(near_row) - at_row, columns_off = as_floats(near_column) - at_column;
+    const Float8 u = select(is_point, load<8>(&points.inverse_rho[at]), one);
     const Float8 moved = u + (slopes.per_row * rows_off + slopes.per_column * columns_off);
     const Float8 limited = smaller(larger(moved, 0.8F * u), 1.25F * u);
     const Int8 valid_row = select(outside, all_ints<8>(0), near_row);
     store(gather(target.range_per_rho.data(), valid_row) / limited, &points.nearest_range_m[at]);
     store((all<8>(1.02F) - absolute(rows_off)) * (all<8>(1.02F) - absolute(columns_off)),
           &points.nearest_weight[at]);
-    const Int8 cell = select(outside, none, cell_at(near_row, wrapped(near_column, target.columns)));
-    store(select(as_int_mask(is_point), cell, none), &points.nearest_cell[at]);
+    const Int8 cell =
+        first_cell + near_row * all_ints<8>(canvas.stride) + wrapped(near_column, target.columns);
+    store(select(as_int_mask(is_point), select(outside, none, cell), none), &points.nearest_cell[at]);
   }
 }
 

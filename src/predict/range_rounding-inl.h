@@ -9,7 +9,7 @@
 
 #include <cstdint>
 
-#include "predict/lanes-inl.h"
+#include "base/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pointreel {

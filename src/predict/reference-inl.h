@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "predict/lanes-inl.h"
+#include "base/lanes-inl.h"
 #include "predict/reference_image.h"
 #include "predict/wavefront.h"
 

@@ -7,7 +7,7 @@
 #define POINTREEL_PREDICT_ROW_MEMORY_INL_H_
 #endif
 
-#include "predict/lanes-inl.h"
+#include "base/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pointreel {

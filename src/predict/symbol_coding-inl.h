@@ -13,7 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "predict/lanes-inl.h"
+#include "base/lanes-inl.h"
 #include "predict/symbol_tables.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -7,9 +7,8 @@
 
 namespace pointreel {
 
-// Neighbours of a point that lie on the same surface, and whether it falls between the image's last column
-// and the first.
-enum SurfaceSide : std::int32_t { kRight = 1, kLeft = 2, kBelow = 4, kAbove = 8, kAtSeam = 16 };
+// Neighbours of a point that lie on the same surface.
+enum SurfaceSide : std::int32_t { kRight = 1, kLeft = 2, kBelow = 4, kAbove = 8 };
 
 // Arrays in the layout of the reference, with empty points around: neighbours need no borders, and neither do
 // vectors of eight that begin within a row.
@@ -20,11 +19,9 @@ struct WarpedPoints {
   std::vector<float> row, column;
   std::vector<float> inverse_rho;  // 1 / distance from the axis: linear along a plane
   std::vector<float> range_m;      // of the reference; 0: no point
-  // Second step: their surfaces, and what they say about the cells around them.
-  std::vector<float> per_column, per_row;  // slopes of inverse_rho
+  // Second step: their surfaces, and what they say about the cells nearest to them.
   std::vector<std::int32_t> sides;         // SurfaceSide bits
-  std::vector<std::int32_t> upper_left;    // of the four cells around, as in WarpCanvas; kNone for no point
-  std::vector<std::int32_t> nearest_cell;  // kNone where that is outside the image
+  std::vector<std::int32_t> nearest_cell;  // as in WarpCanvas; kNone where that is outside the image
   std::vector<float> nearest_range_m;      // where the nearest cell's ray meets the surface
   std::vector<float> nearest_weight;       // how near
 
@@ -36,10 +33,9 @@ struct WarpedPoints {
     const std::size_t size = stride * (static_cast<std::size_t>(rows) + 2);
     if (stride == stride_ && size == row.size()) return;
     stride_ = stride;
-    for (auto* values :
-         {&row, &column, &inverse_rho, &range_m, &per_column, &per_row, &nearest_range_m, &nearest_weight})
+    for (auto* values : {&row, &column, &inverse_rho, &range_m, &nearest_range_m, &nearest_weight})
       values->assign(size, 0);
-    for (auto* values : {&sides, &upper_left, &nearest_cell}) values->assign(size, 0);
+    for (auto* values : {&sides, &nearest_cell}) values->assign(size, 0);
   }
   std::size_t index(int at_row, int at_column) const {
     return static_cast<std::size_t>(at_row + 1) * stride_ + kMargin + static_cast<std::size_t>(at_column);

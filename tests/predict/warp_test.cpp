@@ -72,7 +72,7 @@ TEST(Warp, ShowsARoomFromAnotherPlace) {
   const SensorModel model = sensor(32);
   const SweepGrid reference_grid = full_turn(), grid = full_turn(1);
   const GridImage before = room_from(model, reference_grid, 0, 0, 0);
-  const ReferenceSweep reference = reference_from(model, reference_grid, before.range_m, {}, 1);
+  const ReferenceSweep reference{reference_grid, before, {}};
   for (const auto& [x_m, y_m, yaw_rad] : {std::tuple{0.0, 0.0, 0.0}, {1.3, 0.1, 0.02}, {-0.5, 0.4, -0.3}}) {
     const GridImage now = room_from(model, grid, x_m, y_m, yaw_rad);
     const ReferenceImage warped = warp(model, grid, reference, moved(x_m, y_m, yaw_rad), 1);
@@ -92,8 +92,7 @@ TEST(Warp, ShowsARoomFromAnotherPlace) {
 TEST(Warp, FindsColumnsWhereverTheSweepBegins) {
   const SensorModel model = sensor(8);
   const SweepGrid reference_grid = full_turn();
-  const ReferenceSweep reference =
-      reference_from(model, reference_grid, room_from(model, reference_grid, 0, 0, 0).range_m, {}, 1);
+  const ReferenceSweep reference{reference_grid, room_from(model, reference_grid, 0, 0, 0), {}};
   for (const std::uint32_t first : {0u, 900u, 2001u, 3999u}) {
     for (const std::uint32_t ticks : {4000u, 4400u}) {
       SweepGrid grid;
@@ -119,7 +118,7 @@ TEST(Warp, PointsBesideAPartialViewAreDropped) {
   for (std::uint32_t tick = 1000; tick < 2000; tick += 2) grid.column_tick.push_back(tick);
   GridImage image = CodingGrid(model, grid).empty_image();
   std::fill(image.range_m.begin(), image.range_m.end(), 10.0F);
-  const ReferenceSweep reference = reference_from(model, grid, image.range_m, {}, 1);
+  const ReferenceSweep reference{grid, image, {}};
   const ReferenceImage warped = warp(model, grid, reference, moved(0, 0, 0.5), 1);
   std::size_t returns = 0;
   for (const float range_m : warped.range_m) returns += range_m > 0 ? 1 : 0;
@@ -131,8 +130,7 @@ TEST(Warp, PointsBesideAPartialViewAreDropped) {
 TEST(Warp, IsTheSameForAnyNumberOfThreads) {
   const SensorModel model = sensor(16);
   const SweepGrid grid = full_turn();
-  const ReferenceSweep reference =
-      reference_from(model, grid, room_from(model, grid, 0, 0, 0).range_m, {}, 3);
+  const ReferenceSweep reference{grid, room_from(model, grid, 0, 0, 0), {}};
   const ReferenceImage one = warp(model, grid, reference, moved(0.7, 0, 0.05), 1);
   const ReferenceImage four = warp(model, grid, reference, moved(0.7, 0, 0.05), 4);
   EXPECT_EQ(one.range_m, four.range_m);
@@ -153,8 +151,7 @@ TEST(Warp, DoesNotDependOnWhatItsMemoryHeld) {
   for (const std::size_t columns : {2000u, 1999u, 1200u, 1207u, 2000u}) {
     SweepGrid grid = full_turn();
     grid.column_tick.resize(columns);
-    const ReferenceSweep reference =
-        reference_from(model, grid, room_from(model, grid, 0, 0, 0).range_m, {}, 1);
+    const ReferenceSweep reference{grid, room_from(model, grid, 0, 0, 0), {}};
     const Pose motion = moved(0.7, 0, 0.05);
     const ReferenceImage& reused = pointreel::warp(model, grid, reference, motion, 1, memory);
     const ReferenceImage fresh = warp(model, grid, reference, motion, 1);
@@ -170,7 +167,7 @@ TEST(Warp, StaysFiniteForAnyMotionAndAnyGrid) {
     SweepGrid grid = full_turn();
     grid.column_tick.resize(columns);
     const GridImage image{5, static_cast<int>(columns), std::vector<float>(5 * columns, 4.0F)};
-    const ReferenceSweep reference = reference_from(model, grid, image.range_m, {}, 1);
+    const ReferenceSweep reference{grid, image, {}};
     for (const double far_m : {0.0, 4.0, 1e6, 1e30, static_cast<double>(std::numeric_limits<float>::max())}) {
       const ReferenceImage warped = warp(model, grid, reference, moved(far_m, -far_m, kPi), 1);
       for (const float range_m : warped.range_m) ASSERT_TRUE(std::isfinite(range_m) && range_m >= 0);

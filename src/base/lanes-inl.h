@@ -4,11 +4,11 @@
 // Compiled once per instruction set by Highway (see band_coding.cpp). Every operation is IEEE, lane by lane,
 // and sums have one fixed order, so that all instruction sets compute the same bits.
 
-#if defined(POINTREEL_PREDICT_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef POINTREEL_PREDICT_LANES_INL_H_
-#undef POINTREEL_PREDICT_LANES_INL_H_
+#if defined(POINTREEL_BASE_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef POINTREEL_BASE_LANES_INL_H_
+#undef POINTREEL_BASE_LANES_INL_H_
 #else
-#define POINTREEL_PREDICT_LANES_INL_H_
+#define POINTREEL_BASE_LANES_INL_H_
 #endif
 
 #include <cstddef>
@@ -91,6 +91,14 @@ POINTREEL_INLINE void store(const Floats<N>& a, float* lanes) {
   using F = Floats<N>;
   for (std::size_t i = 0; i < F::kParts; ++i)
     hn::StoreU(a.part[i], typename F::Tag(), lanes + i * F::kPartLanes);
+}
+// The first `count` of them.
+template <std::size_t N>
+POINTREEL_INLINE void store_first(const Floats<N>& a, float* lanes, std::size_t count) {
+  if (count >= N) return store(a, lanes);
+  float padded[N];
+  store(a, padded);
+  for (std::size_t i = 0; i < count; ++i) lanes[i] = padded[i];
 }
 template <std::size_t N>
 POINTREEL_INLINE Floats<N> all(float x) {
@@ -192,6 +200,17 @@ POINTREEL_INLINE void store(const Ints<N>& a, std::int32_t* lanes) {
   for (std::size_t i = 0; i < I::kParts; ++i)
     hn::StoreU(a.part[i], typename I::Tag(), lanes + i * I::kPartLanes);
 }
+// The first `count` of them, as bytes.
+template <std::size_t N>
+POINTREEL_INLINE void store_first_bytes(const Ints<N>& a, std::uint8_t* bytes, std::size_t count) {
+  using I = Ints<N>;
+  const hn::Rebind<std::uint8_t, typename I::Tag> tag;
+  std::uint8_t padded[N];
+  std::uint8_t* to = count >= N ? bytes : padded;
+  for (std::size_t i = 0; i < I::kParts; ++i)
+    hn::StoreU(hn::DemoteTo(tag, a.part[i]), tag, to + i * I::kPartLanes);
+  for (std::size_t i = 0; i < count && count < N; ++i) bytes[i] = padded[i];
+}
 template <std::size_t N>
 POINTREEL_INLINE Ints<N> all_ints(std::int32_t x) {
   return each_int<N>([&](std::size_t) HWY_ATTR { return hn::Set(typename Ints<N>::Tag(), x); });
@@ -276,6 +295,12 @@ template <std::size_t N>
 POINTREEL_INLINE Floats<N> gather(const float* values, const Ints<N>& index) {
   return each<N>([&](std::size_t i)
                      HWY_ATTR { return hn::GatherIndex(typename Floats<N>::Tag(), values, index.part[i]); });
+}
+template <std::size_t N>
+POINTREEL_INLINE Ints<N> gather(const std::int32_t* values, const Ints<N>& index) {
+  return each_int<N>([&](std::size_t i) HWY_ATTR {
+    return hn::GatherIndex(typename Ints<N>::Tag(), values, index.part[i]);
+  });
 }
 template <std::size_t N>
 POINTREEL_INLINE Mask<N> as_float_mask(const IntMask<N>& mask) {
