@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pointreel {
 
@@ -19,6 +20,14 @@ const Field* PointCloud::find_field(std::string_view name) const {
 }
 
 std::size_t PointCloud::count_non_finite() const {
+  if (positions.empty()) return 0;
+  // Hardly a cloud has any: all coordinates in a row and without branches, as compilers like it.
+  static_assert(sizeof(Point3f) == 3 * sizeof(float));
+  const float* coordinates = &positions[0].x;
+  int any = 0;
+  for (std::size_t k = 0; k < 3 * positions.size(); ++k)
+    any |= std::fabs(coordinates[k]) <= std::numeric_limits<float>::max() ? 0 : 1;
+  if (any == 0) return 0;
   return static_cast<std::size_t>(
       std::count_if(positions.begin(), positions.end(), [](const Point3f& p) { return !is_finite(p); }));
 }

@@ -11,6 +11,7 @@
 #include "codec/error_budget.h"
 #include "codec/relative_pose.h"
 #include "codec/sections.h"
+#include "codec/verification.h"
 #include "predict/coding_grid.h"
 #include "scatter/stray_list.h"
 #include "sensor/burst_sort.h"
@@ -21,26 +22,32 @@
 namespace pointreel {
 namespace {
 
+// Those of its points from one on, one after the other.
+const float* coordinates_of(const PointCloud& cloud, std::size_t first) {
+  static_assert(sizeof(Point3f) == 3 * sizeof(float));
+  return &cloud.positions[first].x;
+}
+
 // Points that float32 ranges and positions cannot hold within the bound leave the grid.
 void drop_unreachable(const PointCloud& cloud, double max_error_m, GriddedSweep& sweep) {
   const auto reach_m = static_cast<float>(std::min(CorrectionSteps(max_error_m).reach_m(),
                                                    max_error_m * static_cast<double>(kMostRangeSteps) / 16));
   constexpr float kNearestM = 0.01F;
-  const auto out_of_reach = [&](std::size_t i) {
-    const Point3f& p = cloud.positions[i];
-    const float farthest_m =
-        std::max(std::max(std::fabs(p.x), std::fabs(p.y)), std::max(std::fabs(p.z), sweep.range_m[i]));
-    return (farthest_m < reach_m ? 0 : 1) | (sweep.range_m[i] > kNearestM ? 0 : 1);
-  };
   // Hardly a block has one.
   constexpr std::size_t kBlock = 64;
   for (std::size_t first = 0; first < cloud.size(); first += kBlock) {
-    const std::size_t last = std::min(cloud.size(), first + kBlock);
+    const std::size_t count = std::min(cloud.size() - first, kBlock);
+    const float* coordinates_m = coordinates_of(cloud, first);
+    const float* ranges_m = &sweep.range_m[first];
     int any = 0;
-    for (std::size_t i = first; i < last; ++i) any |= out_of_reach(i);
+    for (std::size_t k = 0; k < 3 * count; ++k) any |= std::fabs(coordinates_m[k]) < reach_m ? 0 : 1;
+    for (std::size_t i = 0; i < count; ++i)
+      any |= (ranges_m[i] < reach_m ? 0 : 1) | (ranges_m[i] > kNearestM ? 0 : 1);
     if (any == 0) continue;
-    for (std::size_t i = first; i < last; ++i) {
-      if (out_of_reach(i) != 0) sweep.cell_of_point[i] = -1;
+    for (std::size_t i = 0; i < count; ++i) {
+      const float* p = coordinates_m + 3 * i;
+      const float farthest_m = std::max({std::fabs(p[0]), std::fabs(p[1]), std::fabs(p[2]), ranges_m[i]});
+      if (!(farthest_m < reach_m && ranges_m[i] > kNearestM)) sweep.cell_of_point[first + i] = -1;
     }
   }
 }
@@ -75,46 +82,6 @@ std::vector<Point3f> positions_of_cells(const RayTable& rays, std::span<const fl
                           std::span(positions).subspan(row * columns, columns));
   });
   return positions;
-}
-
-// Verifies each point of the grid, in space and in float32. `cells`: in output order.
-std::vector<Correction> find_corrections(const RayTable& rays, const PointCloud& cloud,
-                                         std::span<const float> range_of_cell_m,
-                                         std::span<const std::uint32_t> point_of_cell,
-                                         std::span<const std::uint32_t> cells, double max_error_m,
-                                         int threads) {
-  const std::size_t columns = rays.column_count();
-  std::vector<std::vector<std::uint32_t>> missed(rays.row_count());  // cells
-  const std::size_t pieces = std::min(rays.row_count(), std::size_t{16});
-  parallel_for(pieces, threads, [&](std::size_t piece) {
-    std::vector<Point3f> positions(columns);
-    for (std::size_t row = piece; row < rays.row_count(); row += pieces) {
-      const auto ranges_m = range_of_cell_m.subspan(row * columns, columns);
-      rays.positions_of_row(row, ranges_m, positions);
-      for (std::size_t column = 0; column < columns; ++column) {
-        if (!(ranges_m[column] > 0)) continue;
-        const std::size_t cell = row * columns + column;
-        if (distance_m(positions[column], cloud.positions[point_of_cell[cell]]) > max_error_m)
-          missed[row].push_back(static_cast<std::uint32_t>(cell));
-      }
-    }
-  });
-  std::vector<std::uint8_t> is_missed;
-  for (const auto& of_row : missed) {
-    if (!of_row.empty()) is_missed.resize(range_of_cell_m.size(), 0);
-    for (const std::uint32_t cell : of_row) is_missed[cell] = 1;
-  }
-  std::vector<Correction> corrections;
-  if (is_missed.empty()) return corrections;
-  const CorrectionSteps steps(max_error_m);
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const std::size_t cell = cells[i];
-    if (is_missed[cell] == 0) continue;
-    corrections.push_back(steps.between(static_cast<std::uint32_t>(i),
-                                        rays.position(cell / columns, cell % columns, range_of_cell_m[cell]),
-                                        cloud.positions[point_of_cell[cell]]));
-  }
-  return corrections;
 }
 
 // Grid points and strays in output order; strays say where they stand.
@@ -264,9 +231,9 @@ EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud&
   range_of_cell_m = coding.ranges_of_cells(image, threads);
   const auto occupied = occupied_cells(range_of_cell_m);
   auto cells = cells_of_points(sweep);
-  const auto moves = encode_moves(settle_order(model, occupied, range_of_cell_m, cells, sweep));
+  const auto moves = encode_moves(settle_order(model, occupied, range_of_cell_m, cells, sweep, threads));
   const bool order_kept = sweep.grid.order.kind != OrderKind::none;
-  if (!order_kept) cells = cells_in_order(occupied, range_of_cell_m, model, sweep.grid);
+  if (!order_kept) cells = cells_in_order(occupied, range_of_cell_m, model, sweep.grid, threads);
   sweep.grid.order.in_bursts = !bursts.empty() && order_kept;
 
   const auto grid_bytes = encode_sweep_grid(model, sweep.grid);
@@ -345,7 +312,7 @@ Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size
   if (!states) return states.error();
 
   const auto range_of_cell_m = coding.ranges_of_cells(image, threads);
-  auto cells = cells_in_order(occupied_cells(range_of_cell_m), range_of_cell_m, model, *grid);
+  auto cells = cells_in_order(occupied_cells(range_of_cell_m), range_of_cell_m, model, *grid, threads);
   if (cells.size() > points_out) {
     return Error{ErrorCode::corrupt, "its grid holds " + std::to_string(cells.size()) +
                                          " points, more than its " + std::to_string(points_out)};

@@ -91,11 +91,13 @@ Evidence evidence_for(const Pose& T_ref_cur, const Reference& reference,
                    for (int i = 0; i < 6; ++i) {
                      const float weighted = weight * jacobian[i];
                      gradient[i] += distance_m * weighted;
-                     for (int j = 0; j < 6; ++j) hessian[i][j] += weighted * jacobian[j];
+                     for (int j = i; j < 6; ++j) hessian[i][j] += weighted * jacobian[j];
                    }
                    evidence.weight += static_cast<double>(weight);
                  });
-  evidence.hessian = Eigen::Matrix<float, 6, 6>::Map(&hessian[0][0]).cast<double>();
+  const Eigen::Matrix<float, 6, 6> half =
+      Eigen::Matrix<float, 6, 6>::Map(&hessian[0][0]);  // column by column
+  evidence.hessian = half.selfadjointView<Eigen::Lower>().toDenseMatrix().cast<double>();
   evidence.gradient = Eigen::Matrix<float, 6, 1>::Map(gradient).cast<double>();
   return evidence;
 }

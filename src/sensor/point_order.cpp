@@ -1,8 +1,10 @@
 #include "sensor/point_order.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
+#include "base/parallel.h"
 #include "sensor/order_moves.h"
 #include "sensor/row_walk.h"
 
@@ -119,21 +121,34 @@ std::uint32_t find_seam(const SensorModel& model, const SweepGrid& grid, const s
   return best;
 }
 
+std::vector<std::uint32_t> cells_row_by_row(std::span<const std::uint8_t> occupied,
+                                            std::span<const float> range_m, const SensorModel& model,
+                                            const SweepGrid& grid, int threads) {
+  const std::size_t rows = model.row_sequence.size(), columns = grid.column_count();
+  std::vector<std::size_t> first_of_row(rows + 1);
+  for (std::size_t k = 0; k < rows; ++k) {
+    const auto row = occupied.subspan(model.row_sequence[k] * columns, columns);
+    first_of_row[k + 1] = first_of_row[k] + std::accumulate(row.begin(), row.end(), 0u);
+  }
+  std::vector<std::uint32_t> cells(first_of_row.back());
+  const std::size_t pieces = std::min(rows, static_cast<std::size_t>(std::max(1, threads)));
+  parallel_for(pieces, threads, [&](std::size_t piece) {
+    RowWalk walk(occupied, range_m, model, grid);
+    for (std::size_t k = piece; k < rows; k += pieces)
+      walk.list(model.row_sequence[k], cells.data() + first_of_row[k]);
+  });
+  return cells;
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> cells_in_order(std::span<const std::uint8_t> occupied,
                                           std::span<const float> range_m, const SensorModel& model,
-                                          const SweepGrid& grid) {
+                                          const SweepGrid& grid, int threads) {
+  if (is_by_rows(grid.order.kind)) return cells_row_by_row(occupied, range_m, model, grid, threads);
   const auto rows = static_cast<std::uint32_t>(model.rows.size());
   const auto columns = static_cast<std::uint32_t>(grid.column_count());
-  std::vector<std::uint32_t> cells;
-  if (is_by_rows(grid.order.kind)) {
-    cells.reserve(occupied.size());
-    RowWalk walk(occupied, range_m, model, grid);
-    for (const std::uint16_t row : model.row_sequence) walk.append(row, cells);
-    return cells;
-  }
-  cells.resize(occupied.size() + 1);
+  std::vector<std::uint32_t> cells(occupied.size() + 1);
   std::size_t count = 0;
   const auto take = [&](std::uint32_t cell) {
     cells[count] = cell;
@@ -221,11 +236,11 @@ PointOrder find_order(const SensorModel& model, const GriddedSweep& sweep,
 
 std::vector<OrderMove> settle_order(const SensorModel& model, std::span<const std::uint8_t> occupied,
                                     std::span<const float> range_m, std::span<const std::uint32_t> walk,
-                                    GriddedSweep& sweep) {
+                                    GriddedSweep& sweep, int threads) {
   PointOrder& order = sweep.grid.order;
   if (order.kind == OrderKind::none) return {};
   const auto moves_now = [&] {
-    return find_moves(cells_in_order(occupied, range_m, model, sweep.grid), walk, occupied.size());
+    return find_moves(cells_in_order(occupied, range_m, model, sweep.grid, threads), walk, occupied.size());
   };
   auto moves = moves_now();
   constexpr std::size_t kFew = 16;

@@ -17,7 +17,7 @@ namespace pointreel {
 // it, and only where occupied. Order none: rows from top to bottom. Deterministic.
 std::vector<std::uint32_t> cells_in_order(std::span<const std::uint8_t> occupied,
                                           std::span<const float> range_m, const SensorModel& model,
-                                          const SweepGrid& grid);
+                                          const SweepGrid& grid, int threads = 1);
 
 // When the cells of a column-major cloud were measured: slot * rows + place in the row sequence. -1 where the
 // order is another one.
@@ -38,6 +38,6 @@ PointOrder find_order(const SensorModel& model, const GriddedSweep& sweep,
 // that leaves too many, the order becomes none.
 std::vector<OrderMove> settle_order(const SensorModel& model, std::span<const std::uint8_t> occupied,
                                     std::span<const float> range_m, std::span<const std::uint32_t> walk,
-                                    GriddedSweep& sweep);
+                                    GriddedSweep& sweep, int threads);
 
 }  // namespace pointreel

@@ -41,8 +41,8 @@ inline float cosine_of(const RowModel& row) {
   return static_cast<float>(1 / std::sqrt(1 + row.slope * row.slope));
 }
 
-// Appends the occupied cells of one row, once around from the seam: by azimuth from there, modulo a turn,
-// then by column.
+// Lists the occupied cells of one row, once around from the seam: by azimuth from there, modulo a turn, then
+// by column.
 class RowWalk {
  public:
   RowWalk(std::span<const std::uint8_t> occupied, std::span<const float> range_m, const SensorModel& model,
@@ -59,7 +59,8 @@ class RowWalk {
       azimuth_.push_back(azimuth_of_tick(tick, grid.ticks_per_turn));
   }
 
-  void append(std::uint32_t row, std::vector<std::uint32_t>& cells) {
+  // As many of them as the row has.
+  void list(std::uint32_t row, std::uint32_t* cells) {
     const auto columns = static_cast<std::uint32_t>(azimuth_.size());
     const std::uint32_t first_cell = row * columns;
     find_places(model_.rows[row], range_m_.subspan(first_cell, columns));
@@ -78,10 +79,7 @@ class RowWalk {
     const auto keys = std::span(keys_).first(taken);
     begin_at_seam(keys);
     sort_nearly_sorted(keys);
-    const std::size_t before = cells.size();
-    cells.resize(before + taken);
-    for (std::size_t k = 0; k < taken; ++k)
-      cells[before + k] = first_cell + static_cast<std::uint32_t>(keys[k]);
+    for (std::size_t k = 0; k < taken; ++k) cells[k] = first_cell + static_cast<std::uint32_t>(keys[k]);
   }
 
  private:
