@@ -33,7 +33,7 @@ profile() {
 # part PROFILE FUNCTION: millions of instructions within the function and what it calls.
 part() {
   awk -v function_name="pointreel::$2(" '
-    index($0, function_name) { gsub(",", "", $1); if ($1 > most) most = $1 }
+    index($0, function_name) { gsub(",", "", $1); if ($1 + 0 > most) most = $1 + 0 }
     END { printf "%.1f", most / 1e6 }' "$folder/$1.txt"
 }
 
