@@ -125,8 +125,9 @@ Result<Codecs> settings() {
   codecs.push_back(std::make_unique<Cloudini>(*program, "steps of 1 mm", 0.001));
   constexpr double kRounding_m = 3e-5;  // of float32, at 200 m
   for (const double bound_m : kBounds_m) {
-    // The corner of a cube is sqrt(3) / 2 of its side away from the centre.
-    const double step_m = (bound_m - kRounding_m) * 2 / std::sqrt(3.0);
+    // The corner of a cube is sqrt(3) / 2 of its side away from the centre. Whole micrometres: Cloudini's
+    // decoder is told six digits of the step.
+    const double step_m = std::floor((bound_m - kRounding_m) * 2e6 / std::sqrt(3.0)) / 1e6;
     codecs.push_back(std::make_unique<Cloudini>(*program, "max error " + in_centimetres(bound_m), step_m));
   }
   return codecs;
