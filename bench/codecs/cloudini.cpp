@@ -122,7 +122,7 @@ Result<Codecs> settings() {
   const auto program = find_program(name);
   if (!program) return Error{ErrorCode::unsupported, "no program " + name + " on PATH"};
   Codecs codecs;
-  codecs.push_back(std::make_unique<Cloudini>(*program, "steps of 1 mm", 0.001));
+  codecs.push_back(std::make_unique<Cloudini>(*program, "max error 0.09 cm, steps of 1 mm", 0.001));
   constexpr double kRounding_m = 3e-5;  // of float32, at 200 m
   for (const double bound_m : kBounds_m) {
     // The corner of a cube is sqrt(3) / 2 of its side away from the centre. Whole micrometres: Cloudini's
