@@ -14,14 +14,14 @@ namespace {
 
 constexpr std::uint32_t kTicksPerTurn = 4000;  // of a sensor whose own are not known
 
-// tmc3's rows go from the lowest laser to the highest, heights in millimetres below the origin.
-std::vector<std::string> laser_table(const SensorModel& model, int azimuth_log2) {
+// tmc3's rows go from the lowest laser to the highest, heights below the origin in the coordinates' units.
+std::vector<std::string> laser_table(const SensorModel& model, int azimuth_log2, double units_per_m) {
   const std::uint32_t ticks_per_turn = model.ticks_per_turn > 0 ? model.ticks_per_turn : kTicksPerTurn;
   std::string slopes, heights, ticks;
   for (const RowModel& row : model.rows | std::views::reverse) {
     const char* comma = slopes.empty() ? "" : ", ";
     slopes += fmt::format("{}{:.6f}", comma, row.slope);
-    heights += fmt::format("{}{:.3f}", comma, -1000 * row.offset_m);
+    heights += fmt::format("{}{:.3f}", comma, -units_per_m * row.offset_m);
     ticks += fmt::format("{}{}", comma, ticks_per_turn);
   }
   return {"--angularEnabled=1",
@@ -51,7 +51,7 @@ class Tmc3Encoder final : public ProgramEncoder {
       SensorEstimator estimator;
       estimator.add(sweep);
       if (!estimator.model()) return Error{ErrorCode::unsupported, "no lasers found in the first sweep"};
-      lasers_ = laser_table(*estimator.model(), *settings_.azimuth_log2);
+      lasers_ = laser_table(*estimator.model(), *settings_.azimuth_log2, settings_.units_per_m);
     }
     if (auto written = write_cloud(runner.file("in.ply"), in_whole_units(sweep), CloudFormat::ply); !written)
       return written.error();
@@ -130,18 +130,25 @@ Tmc3Settings octree(double max_error_m) {
            fmt::format("--positionQuantizationScale={:.9f}", 1 / (kUnitsPer_m * cell_m))}};
 }
 
-// `radius_log2`: ranges in steps of 2^radius_log2 mm; 0: every millimetre exactly.
+constexpr int kAzimuthLog2OfMillimetres = 13;
+const std::vector<std::string> kPredictive = {"--geomTreeType=1", "--predGeomSort=0",
+                                              "--mergeDuplicatedPoints=0"};
+
+// Ranges in steps of 2^radius_log2 mm along the lasers' rays: the fewest bits where points lie on them.
 Tmc3Settings predictive(int radius_log2) {
-  Tmc3Settings settings{"G-PCC predictive",
-                        radius_log2 == 0 ? "every mm" : fmt::format("steps of {} mm", 1 << radius_log2),
-                        1000,
-                        13 - radius_log2,
-                        {"--geomTreeType=1", "--predGeomSort=0", "--mergeDuplicatedPoints=0"}};
-  if (radius_log2 > 0) {
-    settings.arguments.emplace_back("--secondaryResidualDisabled=1");
-    settings.arguments.push_back(fmt::format("--positionRadiusInvScaleLog2={}", radius_log2));
-  }
+  Tmc3Settings settings{"G-PCC predictive", fmt::format("steps of {} mm", 1 << radius_log2), 1000,
+                        kAzimuthLog2OfMillimetres - radius_log2, kPredictive};
+  settings.arguments.emplace_back("--secondaryResidualDisabled=1");
+  settings.arguments.push_back(fmt::format("--positionRadiusInvScaleLog2={}", radius_log2));
   return settings;
+}
+
+// Points on a lattice, kept exactly: what the rays leave is corrected in x, y and z. The corner of a cube is
+// sqrt(3) / 2 of its side away from the centre.
+Tmc3Settings predictive_corrected(const std::string& text, double lattice_m) {
+  const auto coarser_log2 = static_cast<int>(std::lround(std::log2(1000 * lattice_m)));
+  return {"G-PCC predictive, corrected", text, 1 / lattice_m, kAzimuthLog2OfMillimetres - coarser_log2,
+          kPredictive};
 }
 
 Result<Codecs> settings() {
@@ -149,8 +156,14 @@ Result<Codecs> settings() {
   if (!program) return Error{ErrorCode::unsupported, "no program tmc3 on PATH"};
   Codecs codecs;
   for (const double bound_m : kBounds_m) codecs.push_back(std::make_unique<Tmc3>(*program, octree(bound_m)));
-  for (const int radius_log2 : {0, 3, 4, 5, 6, 7, 8, 9})
+  for (const int radius_log2 : {3, 4, 5, 6, 7, 8, 9})
     codecs.push_back(std::make_unique<Tmc3>(*program, predictive(radius_log2)));
+  codecs.push_back(std::make_unique<Tmc3>(*program, predictive_corrected("every mm", 0.001)));
+  for (const double bound_m : kBounds_m) {
+    codecs.push_back(std::make_unique<Tmc3>(
+        *program,
+        predictive_corrected("max error " + in_centimetres(bound_m), (bound_m - 3e-5) * 2 / std::sqrt(3.0))));
+  }
   return codecs;
 }
 
