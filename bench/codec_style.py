@@ -12,7 +12,7 @@ STYLES = {
     "G-PCC predictive": ("#000000", "s"),
     "G-PCC octree": ("#969696", "s"),
     "V-PCC": ("#bdbdbd", "s"),
-    "draco": ("#1b9e77", "D"),
+    "Draco": ("#1b9e77", "D"),
     "Cloudini": ("#66c2a4", "D"),
     "PCL octree, a point a voxel": ("#8c6d1f", "^"),
     "PCL octree": ("#d9b44a", "^"),

@@ -58,7 +58,7 @@ def draw_error(folder, series, name, title, error):
     shown = with_settings(series, lambda result: LEAST_ERROR_M < error(result) < LARGEST_ERROR_M)
     figure, axes = plt.subplots(figsize=(8.5, 6), layout="constrained")
     draw(axes, shown, error, "error, the worse direction")
-    in_centimetres(axes, [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50])
+    in_centimetres(axes, [0.5, 1, 2, 5, 10, 20, 50])
     axes.set_title(title)
     hidden = [other for other in series if other not in shown and other not in LOSSLESS]
     if hidden:
