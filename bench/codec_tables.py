@@ -13,6 +13,8 @@ import codec_results
 
 BOUNDS_CM = (1, 2, 5, 10, 20)
 OURS = "mixture balanced"
+# Student's t, two-sided, by degrees of freedom from 1.
+T_5_PERCENT = (12.71, 4.30, 3.18, 2.78, 2.57, 2.45, 2.36, 2.31, 2.26, 2.23, 2.20, 2.18, 2.16, 2.14)
 LEAST_RATIO = 60  # of the settings that the document lists for registration; the pictures have all
 
 
@@ -21,9 +23,9 @@ def markdown(header, rows):
     return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
 
 
-def table_equal_error(folder):
+def table_equal_error(folder, file="codecs.jsonl"):
     """Bits per point of every series at the same largest error, and how many times ours that is."""
-    series = codec_results.read(folder)
+    series = codec_results.read(folder, file)
     ours = {cm: codec_results.bits_at(series[OURS], cm / 100) for cm in BOUNDS_CM}
     rows = []
     for name, results in series.items():
@@ -32,6 +34,10 @@ def table_equal_error(folder):
             cells = [f"{b:.2f} ({b / ours[cm]:.2f} x)" if b else "" for cm, b in zip(BOUNDS_CM, bits)]
             rows.append((min(b / ours[cm] for cm, b in zip(BOUNDS_CM, bits) if b), [name] + cells))
     return markdown(["codec"] + [f"{cm} cm" for cm in BOUNDS_CM], [row for _, row in sorted(rows)])
+
+
+def table_equal_error_vpcc(folder):
+    return table_equal_error(folder, "vpcc.jsonl")
 
 
 def decibels(value):
@@ -76,8 +82,17 @@ def table_speed_rounds(folder):
     return table_speed(folder, "speed.jsonl")
 
 
+def differs(values, base):
+    """By Welch's t-test at 5 %: more than the spreads of both leave to chance."""
+    squares = [statistics.variance(sample) / len(sample) for sample in (values, base)]
+    freedom = sum(squares) ** 2 / sum(square ** 2 / (len(sample) - 1) for square, sample in zip(squares, (values, base)))
+    t = abs(statistics.mean(values) - statistics.mean(base)) / math.sqrt(sum(squares))
+    return t > T_5_PERCENT[min(int(freedom), len(T_5_PERCENT)) - 1]
+
+
 def table_registration(folder, file="registration.jsonl"):
-    """Error with its standard deviation over the seeds; in brackets the mean difference to the original's."""
+    """Error with its standard deviation over the seeds; in brackets the mean difference to the original's, bold where it
+    is more than chance."""
     results, original = {}, {}
     with open(os.path.join(folder, file), encoding="utf-8") as lines:
         for r in map(json.loads, lines):
@@ -93,9 +108,11 @@ def table_registration(folder, file="registration.jsonl"):
             r = by_method[method]
             for key in ("translation_percent", "rotation_deg_per_100m"):
                 values = r[key]
-                difference = statistics.mean(values) - statistics.mean(base[key])
-                row.append(f"{statistics.mean(values):.2f} +- {statistics.stdev(values):.2f}"
-                           + ("" if name == "original" else f" ({difference:+.2f})"))
+                cell = f"{statistics.mean(values):.2f} +- {statistics.stdev(values):.2f}"
+                if name != "original":
+                    difference = f"{statistics.mean(values) - statistics.mean(base[key]):+.2f}"
+                    cell += f" (**{difference}**)" if differs(values, base[key]) else f" ({difference})"
+                row.append(cell)
         rows.append(row)
     header = ["points", "bpp", "ratio"]
     for method in original:
@@ -109,6 +126,7 @@ def table_registration_motion_unknown(folder):
 
 TABLES = {
     "equal-error": table_equal_error,
+    "equal-error-vpcc": table_equal_error_vpcc,
     "settings": table_settings,
     "speed": table_speed,
     "speed-rounds": table_speed_rounds,

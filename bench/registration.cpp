@@ -9,7 +9,9 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <mutex>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,24 +48,27 @@ using Drifts = std::map<PclMethod, std::vector<Drift>>;
 Drifts drifts_of(const std::vector<PointCloud>& sweeps, const std::vector<Pose>& T_world_sensor,
                  const Arguments& arguments) {
   Drifts drifts;
-  for (const PclMethod method : kMethods) drifts[method].resize(static_cast<std::size_t>(arguments.seeds));
-  const auto seeds = static_cast<std::size_t>(arguments.seeds);
-  parallel_for(std::size(kMethods) * seeds, resolve_threads(0), [&](std::size_t job) {
-    const PclMethod method = kMethods[job / seeds];
-    const auto seed = static_cast<std::uint32_t>(job % seeds);
-    const MotionTrack track =
-        pcl_icp_track(sweeps, {arguments.voxel_m, arguments.farthest_m, method, seed + 1});
-    drifts.at(method)[seed] = drift_of(track, T_world_sensor);
-  });
+  for (const PclMethod method : kMethods) {
+    for (std::uint32_t seed = 1; seed <= static_cast<std::uint32_t>(arguments.seeds); ++seed) {
+      const MotionTrack track =
+          pcl_icp_track(sweeps, {arguments.voxel_m, arguments.farthest_m, method, seed});
+      drifts[method].push_back(drift_of(track, T_world_sensor));
+    }
+  }
   return drifts;
 }
 
-void write_line(std::ostream& out, const std::string& series, const std::string& settings, double bpp,
-                const Drifts& drifts) {
-  for (const auto& [method, by_seed] : drifts) {
-    nlohmann::json line = {{"series", series},
-                           {"settings", settings},
-                           {"bits_per_point", bpp},
+struct Registered {
+  std::string series, settings;
+  double bits_per_point;
+  Drifts drifts;
+};
+
+void write_lines(std::ostream& out, const Registered& registered) {
+  for (const auto& [method, by_seed] : registered.drifts) {
+    nlohmann::json line = {{"series", registered.series},
+                           {"settings", registered.settings},
+                           {"bits_per_point", registered.bits_per_point},
                            {"method", name_of(method)},
                            {"path_m", by_seed.front().path_m},
                            {"translation_percent", nlohmann::json::array()},
@@ -76,7 +81,7 @@ void write_line(std::ostream& out, const std::string& series, const std::string&
       line["median_step_error_m"].push_back(drift.median_step_error_m);
       line["failures"] = line["failures"].get<int>() + drift.failures;
     }
-    out << line.dump() << std::endl;
+    out << line.dump() << '\n';
   }
 }
 
@@ -92,6 +97,23 @@ bool far_too_large(const Codec& codec, const SweepSet& set, const DriveContext& 
   return !pass.failure && bits_per_point(pass, set.sweeps.front().size()) > 2 * most_bpp;
 }
 
+// None: not wanted, too large, or failed, which is said.
+std::optional<Registered> registered(const Codec& codec, const SweepSet& set, const Arguments& arguments) {
+  if (std::count(arguments.without.begin(), arguments.without.end(), codec.series()) > 0) return {};
+  // As `pointreel bench` gives them to the codecs.
+  const DriveContext drive{arguments.motion_unknown ? std::span<const Pose>()
+                                                    : std::span<const Pose>(set.poses)};
+  if (far_too_large(codec, set, drive, arguments.most_bpp)) return {};
+  const CodecPass pass = run_codec(codec, set.sweeps, drive);
+  if (pass.failure) {
+    print_note(fmt::format("{}, {}: {}", codec.series(), codec.settings(), pass.failure->message));
+    return {};
+  }
+  const double bpp = bits_per_point(pass, set.points);
+  if (bpp > arguments.most_bpp) return {};
+  return Registered{codec.series(), codec.settings(), bpp, drifts_of(pass.decoded, set.poses, arguments)};
+}
+
 void run(const Arguments& arguments) {
   SweepSet set = load_sweep_set(arguments.inputs, arguments.poses, "", arguments.max_sweeps);
   if (arguments.poses_at_begin) set.poses = poses_in_the_middle(set.poses);
@@ -101,30 +123,26 @@ void run(const Arguments& arguments) {
   set.points = 0;
   for (const PointCloud& sweep : set.sweeps) set.points += sweep.size();
 
-  std::ofstream out(arguments.output);
   std::map<std::string, std::string> skipped;
   const auto codecs = require(choose_codecs(arguments.codecs, skipped));
   for (const auto& [name, why] : skipped) print_note(fmt::format("{} skipped: {}", name, why));
 
-  write_line(out, "original", "", 96, drifts_of(set.sweeps, set.poses, arguments));
-  // As `pointreel bench` gives them to the codecs.
-  const DriveContext drive{
-      arguments.motion_unknown ? std::span<const Pose>() : std::span<const Pose>(set.poses),
-      resolve_threads(0)};
-  Progress progress("registering", codecs.size());
-  for (std::size_t i = 0; i < codecs.size(); ++i) {
-    const Codec& codec = *codecs[i].codec;
-    progress.advance_to(i);
-    if (std::count(arguments.without.begin(), arguments.without.end(), codec.series()) > 0) continue;
-    if (far_too_large(codec, set, drive, arguments.most_bpp)) continue;
-    const CodecPass pass = run_codec(codec, set.sweeps, drive);
-    if (pass.failure) {
-      print_note(fmt::format("{}, {}: {}", codec.series(), codec.settings(), pass.failure->message));
-      continue;
-    }
-    const double bpp = bits_per_point(pass, set.points);
-    if (bpp > arguments.most_bpp) continue;
-    write_line(out, codec.series(), codec.settings(), bpp, drifts_of(pass.decoded, set.poses, arguments));
+  // A setting is one thread's from encoding to the last registration: neither has to wait for the other's
+  // codec.
+  std::vector<std::optional<Registered>> results(1 + codecs.size());
+  Progress progress("registering", results.size());
+  std::mutex counting;
+  std::size_t done = 0;
+  parallel_for(results.size(), resolve_threads(0), [&](std::size_t job) {
+    results[job] = job == 0 ? Registered{"original", "", 96, drifts_of(set.sweeps, set.poses, arguments)}
+                            : registered(*codecs[job - 1].codec, set, arguments);
+    const std::lock_guard lock(counting);
+    progress.advance_to(++done);
+  });
+
+  std::ofstream out(arguments.output);
+  for (const auto& result : results) {
+    if (result) write_lines(out, *result);
   }
   out.close();
   if (!out) throw std::runtime_error(arguments.output + ": cannot write");

@@ -14,7 +14,7 @@ class Draco final : public SingleSweepCodec {
   Draco(int quantisation_bits, int compression_level)
       : quantisation_bits_(quantisation_bits), compression_level_(compression_level) {}
 
-  std::string series() const override { return "draco"; }
+  std::string series() const override { return "Draco"; }
   std::string settings() const override {
     return "-qp " + std::to_string(quantisation_bits_) + " -cl " + std::to_string(compression_level_);
   }
