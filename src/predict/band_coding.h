@@ -10,6 +10,7 @@
 #include "predict/coding_kind.h"
 #include "predict/grid_image.h"
 #include "predict/hit_mask_state.h"
+#include "predict/max_range_state.h"
 #include "predict/range_config.h"
 #include "predict/range_quantiser.h"
 #include "predict/range_state.h"
@@ -21,6 +22,7 @@ namespace pointreel {
 struct BandState {
   HitMaskState mask;
   RangeModelState ranges;
+  MaxRangeState trust;  // in its place where has_trust()
 };
 
 struct CodedBand {

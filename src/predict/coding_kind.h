@@ -13,10 +13,12 @@ struct CodingKind {
   Effort effort = Effort::balanced;
 };
 
+// Whether the experts are trusted by the circumstances of a cell (expert_trust.h).
+constexpr bool has_trust(const CodingKind& kind) { return kind.predicted && kind.effort == Effort::max; }
+
 // Experts that predict the ranges of such a frame.
 constexpr std::size_t experts_of(const CodingKind& kind) {
-  if (kind.effort == Effort::fast) return 8;
-  return kind.predicted && kind.effort == Effort::max ? 24 : 16;
+  return kind.effort == Effort::fast ? 8 : 16;
 }
 
 }  // namespace pointreel

@@ -11,7 +11,7 @@
 
 namespace pointreel {
 
-inline constexpr std::size_t kMostExperts = 24;
+inline constexpr std::size_t kMostExperts = 16;
 
 // An expert's class: half octaves of its recent mean squared error over the squared step.
 inline constexpr std::size_t kErrorClasses = 32;
