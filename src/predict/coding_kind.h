@@ -14,7 +14,9 @@ struct CodingKind {
 };
 
 // Whether the experts are trusted by the circumstances of a cell (expert_trust.h).
-constexpr bool has_trust(const CodingKind& kind) { return kind.predicted && kind.effort == Effort::max; }
+constexpr bool has_trust(const CodingKind& kind) {
+  return kind.predicted && kind.effort == Effort::max;
+}
 
 // Experts that predict the ranges of such a frame.
 constexpr std::size_t experts_of(const CodingKind& kind) {

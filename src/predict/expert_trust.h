@@ -29,7 +29,7 @@ struct ExpertTrusts {
   static constexpr std::size_t kSectors = 32;
   static constexpr std::size_t kDistances = 16, kSpreads = 4;
   static constexpr std::array<std::size_t, kCircumstances> kClasses = {
-      kErrorClasses, StepModels::kActivities * StepModels::kAvailabilities, kDistances * kSpreads,
+      kErrorClasses, StepModels::kActivities* StepModels::kAvailabilities, kDistances* kSpreads,
       StepModels::kRows, kSectors};
   // Those that do not depend on the sensor and on where it is have priors.
   static constexpr std::size_t kWithPriors = kRow;

@@ -1,6 +1,8 @@
 // Everything that the range model learns at effort max.
 #pragma once
 
+#include <cstddef>
+
 #include "predict/expert_trust.h"
 #include "predict/question_models.h"
 

@@ -1,5 +1,5 @@
-// The second stage of effort max: adaptive bits in more contexts, and two mixers over them. Where the experts'
-// proposals lie among the bins says most.
+// The second stage of effort max: adaptive bits in more contexts, and two mixers over them. Where the
+// experts' proposals lie among the bins says most.
 
 #if defined(POINTREEL_PREDICT_MAX_SECOND_STAGE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef POINTREEL_PREDICT_MAX_SECOND_STAGE_INL_H_
@@ -7,6 +7,10 @@
 #else
 #define POINTREEL_PREDICT_MAX_SECOND_STAGE_INL_H_
 #endif
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
 
 #include "predict/bit_mixing-inl.h"
 #include "predict/experts-inl.h"
@@ -23,7 +27,7 @@ HWY_NOINLINE bool code_question(Coder& coder, float p, QuestionModels& models,
                                 const std::array<std::size_t, QuestionModels::kContexts>& slots,
                                 const std::array<std::size_t, QuestionModels::kMixers>& weights, bool bit) {
   constexpr std::size_t kInputs = QuestionModels::kInputs, kFirstBit = kInputs - QuestionModels::kContexts;
-  constexpr std::uint32_t kSettledCount = 60;
+  constexpr std::uint32_t kSettledCount = 30;
   constexpr float kConstant = 0.3F;
   constexpr float kMixingRate = 1.F / 256;
   std::array<CountedBit*, QuestionModels::kContexts> bits;
@@ -71,10 +75,11 @@ class MaxSecondStage {
   template <class Coder>
   POINTREEL_INLINE bool code_more(Coder& coder, bool down, std::int32_t magnitude, float p, bool more) const {
     const auto step = static_cast<std::size_t>(magnitude - 1);
-    const auto farther = proposed_ * all_ints<kMostExperts>(down ? -1 : 1) - all_ints<kMostExperts>(magnitude);
+    const auto farther =
+        proposed_ * all_ints<kMostExperts>(down ? -1 : 1) - all_ints<kMostExperts>(magnitude);
     return code(coder, MaxQuestionModels::kMore, p, at_.error * StepModels::kUnarySteps + step,
-                at_.spread * StepModels::kUnarySteps + step, {step * 4 + at_.activity / 4, at_.error}, farther,
-                more);
+                at_.spread * StepModels::kUnarySteps + step, {step * 4 + at_.activity / 4, at_.error},
+                farther, more);
   }
 
  private:
@@ -91,14 +96,15 @@ class MaxSecondStage {
     const auto three = all_ints<kMostExperts>(3);
     alignas(32) std::int32_t place[kMostExperts];
     store(larger(smaller(proposed, three), all_ints<kMostExperts>(-3)) + three, place);
-    const auto triple = [&](int a, int b, int c)
-                            HWY_ATTR { return static_cast<std::size_t>((place[a] * 7 + place[b]) * 7 + place[c]); };
-    return code_question(coder, p, models_.of[kind],
-                         {own0, own1, triple(kReferenceHere, kLeft, kAbove),
-                          triple(kPlane, kReferenceMean, kLine),
-                          triple(kReferenceRight, kReferenceLeft, kReferenceBelow),
-                          triple(kEdge, kPredictedLeft2, kAboveRight)},
-                         weights, bit);
+    const auto triple = [&](int a, int b, int c) HWY_ATTR {
+      return static_cast<std::size_t>((place[a] * 7 + place[b]) * 7 + place[c]);
+    };
+    return code_question(
+        coder, p, models_.of[kind],
+        {own0, own1, triple(kReferenceHere, kLeft, kAbove), triple(kPlane, kReferenceMean, kLine),
+         triple(kReferenceRight, kReferenceLeft, kReferenceBelow),
+         triple(kEdge, kPredictedLeft2, kAboveRight)},
+        weights, bit);
   }
 
   MaxQuestionModels& models_;

@@ -30,7 +30,7 @@ struct MaxQuestionModels {
   static constexpr std::array<std::array<std::size_t, kOwn>, kKinds> kOwnContexts = {
       {{StepModels::kActivities * StepModels::kErrors, kByRow},
        {StepModels::kSigns, kByRow},
-       {StepModels::kErrors * StepModels::kUnarySteps, StepModels::kErrors * StepModels::kUnarySteps}}};
+       {StepModels::kErrors * StepModels::kUnarySteps, StepModels::kErrors* StepModels::kUnarySteps}}};
   static constexpr std::array<std::array<std::size_t, QuestionModels::kMixers>, kKinds> kMixerContexts = {
       {{StepModels::kActivities * StepModels::kAvailabilities, kMostExperts},
        {StepModels::kAvailabilities, kMostExperts},

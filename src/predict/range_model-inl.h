@@ -125,8 +125,8 @@ class RangeModel {
   POINTREEL_INLINE void learn(std::size_t cell) {
     const CellBins& bins = bins_[cell];
     if constexpr (has_trust(kKind)) {
-      const float likely_m = bins.mixture().learn(*bins.lower, *bins.upper, decoded_m_[cell], step_m_,
-                                                  state_.trust.trusts);
+      const float likely_m =
+          bins.mixture().learn(*bins.lower, *bins.upper, decoded_m_[cell], step_m_, state_.trust.trusts);
       // On the lattice the reconstruction is exact.
       if (!on_lattice_) decoded_m_[cell] = likely_m > kSmallestRangeM ? likely_m : kSmallestRangeM;
     } else {

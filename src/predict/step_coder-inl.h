@@ -105,7 +105,8 @@ class SecondStage {
                       models_.sign_mixers[at_.availability], down);
   }
   template <class Coder>
-  POINTREEL_INLINE bool code_more(Coder& coder, bool /*down*/, std::int32_t magnitude, float p, bool more) const {
+  POINTREEL_INLINE bool code_more(Coder& coder, bool /*down*/, std::int32_t magnitude, float p,
+                                  bool more) const {
     const auto step = static_cast<std::size_t>(magnitude - 1);
     return code_mixed(coder, in_use_, p,
                       {&models_.more_by_error[at_.error * StepModels::kUnarySteps + step],

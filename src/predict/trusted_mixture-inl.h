@@ -9,6 +9,12 @@
 #define POINTREEL_PREDICT_TRUSTED_MIXTURE_INL_H_
 #endif
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
 #include "predict/expert_trust.h"
 #include "predict/mixture-inl.h"
 #include "predict/step_context-inl.h"
@@ -35,8 +41,8 @@ POINTREEL_INLINE TrustClasses trust_classes(const StepContext& context, std::int
   classes[ExpertTrusts::kDistance] =
       static_cast<std::size_t>(half_octaves) * ExpertTrusts::kSpreads + context.spread / kSpreadsApart;
   classes[ExpertTrusts::kRow] = context.row;
-  classes[ExpertTrusts::kSector] = static_cast<std::size_t>(
-      std::clamp(sector, 0, static_cast<int>(ExpertTrusts::kSectors) - 1));
+  classes[ExpertTrusts::kSector] =
+      static_cast<std::size_t>(std::clamp(sector, 0, static_cast<int>(ExpertTrusts::kSectors) - 1));
   return classes;
 }
 
@@ -63,8 +69,8 @@ class TrustedMixture : public Mixture<kMostExperts> {
     per_total_weight_ = 1 / sum(weight_);
   }
 
-  // Of the blend and the experts that find themselves likeliest, the one around which a bin is likeliest: bins
-  // around a surface that goes on keep it smooth.
+  // Of the blend and the experts that find themselves likeliest, the one around which a bin is likeliest:
+  // bins around a surface that goes on keep it smooth.
   POINTREEL_INLINE Origin likeliest_origin(float step_m) const {
     constexpr int kCandidates = 2;
     alignas(64) float proposals_m[kMostExperts];
@@ -104,8 +110,7 @@ class TrustedMixture : public Mixture<kMostExperts> {
     constexpr float kMostWeight = 4096, kMostScale = 16;
     const Lanes one = all<kMostExperts>(1);
     const Lanes p = larger(upper.signed_cdf - lower.signed_cdf, all<kMostExperts>(1e-9F));
-    const Lanes steepness =
-        larger(smaller((upper.slope - lower.slope) / p, one), all<kMostExperts>(-4));
+    const Lanes steepness = larger(smaller((upper.slope - lower.slope) / p, one), all<kMostExperts>(-4));
     const Lanes joint = weight_ * p;
     const Lanes responsibility = joint * all<kMostExperts>(1 / sum(joint));
     const Lanes weight_factor = one + kWeightRate * (responsibility - per_total_weight_ * weight_);
@@ -114,8 +119,9 @@ class TrustedMixture : public Mixture<kMostExperts> {
       ExpertTrust& trust = trusts.of[i][classes_[i]];
       store(clamped(load<kMostExperts>(trust.weight.data()) * weight_factor, 1 / kMostWeight, kMostWeight),
             trust.weight.data());
-      store(clamped(load<kMostExperts>(trust.inverse_scale.data()) * scale_factor, 1 / kMostScale, kMostScale),
-            trust.inverse_scale.data());
+      store(
+          clamped(load<kMostExperts>(trust.inverse_scale.data()) * scale_factor, 1 / kMostScale, kMostScale),
+          trust.inverse_scale.data());
     }
     const float reach_m = kReach * step_m;
     return sum(responsibility * clamped(proposals_m_, middle_m - reach_m, middle_m + reach_m));
