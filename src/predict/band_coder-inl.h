@@ -67,7 +67,7 @@ bool code_band(Coder& mask_coder, Coder& range_coder, const BandSetting& setting
       for_each_hit([&](int row, std::size_t cell) HWY_ATTR { ranges.start(cell, first + row); });
       for_each_hit([&](int row, std::size_t cell) HWY_ATTR {
         float& range_m = range_of(row);
-        range_m = ranges.code(range_coder, cell, range_m);
+        range_m = ranges.code(range_coder, cell, first + row, range_m);
       });
       for_each_hit([&](int, std::size_t cell) HWY_ATTR { ranges.learn(cell); });
       ranges.remember(step);

@@ -80,14 +80,11 @@ class RangeModel {
 
   // Looks at one of them that holds a return: before any of them is coded. `row`: in the band.
   POINTREEL_INLINE void start(std::size_t cell, int row) {
-    const std::int32_t error_class = blended_.error_class[cell];
-    const StepContext& context = context_[cell] =
-        contexts_.of(cell, row, error_class, blended_.spread_class[cell]);
     if constexpr (has_trust(kKind)) {
       const int column = step_ - Wavefront::kLag * static_cast<int>(cell);
-      const TrustedMixture mixture(
-          state_.trust.trusts, blended_, cell,
-          trust_classes(context, error_class, blended_.blend_m[cell], column, columns_));
+      const TrustedMixture mixture(state_.trust.trusts, blended_, cell,
+                                   trust_classes(context_of(cell, row), blended_.error_class[cell],
+                                                 blended_.blend_m[cell], column, columns_));
       const auto origin = mixture.likeliest_origin(step_m_);
       origin_[cell] = origin.expert;
       bins_[cell].start(mixture, quantised(origin.range_m, cell), step_m_);
@@ -98,20 +95,20 @@ class RangeModel {
   }
 
   // Codes its range and gives back the reconstruction, within half a step of `range_m` (which a decoder
-  // ignores).
+  // ignores). `row`: in the band.
   template <class Coder>
-  POINTREEL_INLINE float code(Coder& coder, std::size_t cell, float range_m) {
+  POINTREEL_INLINE float code(Coder& coder, std::size_t cell, int row, float range_m) {
     CellBins& bins = bins_[cell];
     const std::int32_t wanted = Coder::kDecodes ? 0 : rounded((range_m - bins.origin_m()) / step_m_);
+    const StepContext context = context_of(cell, row);
     std::int32_t steps;
-    const auto code_with = [&](const auto& stage) HWY_ATTR {
-      steps = StepCoder<Coder, CellMixture, std::decay_t<decltype(stage)>>(coder, bins, stage).code(wanted);
-    };
     if constexpr (has_trust(kKind)) {
-      code_with(MaxSecondStage(state_.trust.questions, context_[cell],
-                               bins.mixture().steps_from(bins.origin_m(), 1 / step_m_), origin_[cell]));
+      const auto proposed = bins.mixture().steps_from(bins.origin_m(), 1 / step_m_);
+      steps = coded_steps(coder, bins,
+                          MaxSecondStage(state_.trust.questions, context, proposed, origin_[cell]), wanted);
     } else {
-      code_with(SecondStage(state_.ranges.steps, context_[cell], ingredients_.second_stage));
+      steps = coded_steps(coder, bins, SecondStage(state_.ranges.steps, context, ingredients_.second_stage),
+                          wanted);
     }
     const float decoded_m = bins.origin_m() + static_cast<float>(steps) * step_m_;
     decoded_m_[cell] = decoded_m > kSmallestRangeM ? decoded_m : kSmallestRangeM;
@@ -156,6 +153,15 @@ class RangeModel {
   using CellMixture = std::conditional_t<has_trust(kKind), TrustedMixture, Mixture<kExperts>>;
   using CellBins = Bins<CellMixture>;
 
+  template <class Coder, class Stage>
+  static POINTREEL_INLINE std::int32_t coded_steps(Coder& coder, CellBins& bins, const Stage& stage,
+                                                   std::int32_t wanted) {
+    return StepCoder<Coder, CellMixture, Stage>(coder, bins, stage).code(wanted);
+  }
+  POINTREEL_INLINE StepContext context_of(std::size_t cell, int row) const {
+    return contexts_.of(cell, row, blended_.error_class[cell], blended_.spread_class[cell]);
+  }
+
   // Squared errors where no expert was asked, in squared steps: as on a smooth surface.
   static constexpr float kUnknownSquaredShare = 0.1F;
 
@@ -193,7 +199,6 @@ class RangeModel {
   BlendedProposals<kExperts> blended_;
   int step_ = 0;
   StepContexts contexts_;
-  StepContext context_[Wavefront::kRows];
   std::size_t origin_[Wavefront::kRows];  // the expert around whose proposal the bins lie
   CellBins bins_[Wavefront::kRows];
   alignas(32) float decoded_m_[Wavefront::kRows];

@@ -29,7 +29,7 @@ TEST_P(Golden, DecodesToTheSameBits) {
 
 INSTANTIATE_TEST_SUITE_P(Version1, Golden,
                          testing::Values("planes_v1_stream", "planes_v1_raw", "mixture_v1_firing_order",
-                                         "mixture_v1_compensated", "mixture_v1_scattered",
+                                         "mixture_v1_compensated", "mixture_v1_scattered", "mixture_v1_max",
                                          "planes_v1_sensor"));
 
 }  // namespace

@@ -147,9 +147,13 @@ bool write_all(const std::string& folder) {
   coarse.fields.named = {{"intensity", 0.05}};
   MixtureOptions planes;
   planes.max_error_m = 0.1;
+  MixtureOptions max;
+  max.max_error_m = 0.02;
+  max.effort = Effort::max;
   return write(folder + "/mixture_v1_firing_order", firing, fine) &&
          write(folder + "/mixture_v1_compensated", {compensated(high[0].cloud, motion)}, coarse) &&
          write(folder + "/mixture_v1_scattered", {scattered(low[0].cloud)}, coarse) &&
+         write(folder + "/mixture_v1_max", {low[0].cloud, low[1].cloud, low[2].cloud}, max) &&
          write(folder + "/planes_v1_sensor", {low[0].cloud, low[1].cloud, low[2].cloud}, planes,
                Method::planes);
 }
