@@ -38,7 +38,13 @@ Means train(const std::vector<TrainingDrive>& drives, const CodingKind& kind, fl
             encode_band({kind, quantiser, &reference}, band, image, running);
             if (!counts) continue;
             means.ranges.start_visit();
-            visit_range_state(running.ranges, kind, means.ranges);
+            if (kind.effort == Effort::fast) {
+              visit_fast_range_state(running.fast, means.ranges);
+            } else if (has_trust(kind)) {
+              visit_max_range_state(running.trust, means.ranges);
+            } else {
+              visit_range_state(running.ranges, kind, means.ranges);
+            }
             means.mask.start_visit();
             visit_hit_mask_state(running.mask, kind, means.mask);
           }

@@ -392,6 +392,21 @@ template <std::size_t N>
 POINTREEL_INLINE float sum(const Floats<N>& a) {
   return combine(a, [](auto x, auto y) HWY_ATTR { return hn::Add(x, y); });
 }
+template <std::size_t N>
+POINTREEL_INLINE float largest(const Floats<N>& a) {
+  return combine(a, [](auto x, auto y) HWY_ATTR { return hn::Max(x, y); });
+}
+// The first lane that equals x, which one does.
+template <std::size_t N>
+POINTREEL_INLINE std::size_t first_lane_with(const Floats<N>& a, float x) {
+  const typename Floats<N>::Tag tag;
+  for (std::size_t i = 0; i < Floats<N>::kParts; ++i) {
+    const auto lane = hn::FindFirstTrue(tag, hn::Eq(a.part[i], hn::Set(tag, x)));
+    if (lane >= 0) return i * Floats<N>::kPartLanes + static_cast<std::size_t>(lane);
+  }
+  return 0;
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace pointreel
 HWY_AFTER_NAMESPACE();

@@ -31,7 +31,7 @@ bool code_band(Coder& mask_coder, Coder& range_coder, const BandSetting& setting
   const float* known_m = setting.known_range_m.empty() ? nullptr : setting.known_range_m.data();
   HitMaskModel<kEffort, kPredicted> mask(columns, state.mask);
   using Ranges = std::conditional_t<kEffort == Effort::fast, FastRangeModel, RangeModel<kEffort, kPredicted>>;
-  Ranges ranges(columns, setting, state.ranges);
+  Ranges ranges(columns, setting, state);
   ReferencePlanes reference(kPredicted ? columns : 0);
   for (int first = 0; first < band.rows; first += kRows) {
     const int rows = std::min(kRows, band.rows - first);
@@ -87,7 +87,7 @@ bool code_band(Coder& mask_coder, Coder& range_coder, const BandSetting& setting
         for (std::size_t i = 0; i < hits; ++i) act(hit_rows[i], static_cast<std::size_t>(hit_rows[i]));
       };
       if (hits > 0) ranges.predict(step, &reference);
-      for_each_hit([&](int, std::size_t cell) HWY_ATTR { ranges.start(cell); });
+      for_each_hit([&](int row, std::size_t cell) HWY_ATTR { ranges.start(cell, first + row); });
       for_each_hit([&](int row, std::size_t cell) HWY_ATTR {
         float& range_m = range_of(row);
         range_m = ranges.code(range_coder, cell, first + row, range_m);

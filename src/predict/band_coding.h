@@ -8,8 +8,10 @@
 #include "pointreel/result.h"
 #include "predict/bands.h"
 #include "predict/coding_kind.h"
+#include "predict/fast_range_state.h"
 #include "predict/grid_image.h"
 #include "predict/hit_mask_state.h"
+#include "predict/max_range_state.h"
 #include "predict/range_config.h"
 #include "predict/range_quantiser.h"
 #include "predict/range_state.h"
@@ -21,6 +23,8 @@ namespace pointreel {
 struct BandState {
   HitMaskState mask;
   RangeModelState ranges;
+  MaxRangeState trust;  // in its place where has_trust()
+  FastRangeState fast;  // in its place at effort fast
 };
 
 struct CodedBand {

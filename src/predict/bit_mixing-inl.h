@@ -13,8 +13,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "entropy/bit_mixer.h"
 #include "base/lanes-inl.h"
+#include "entropy/bit_mixer.h"
 #include "predict/mixer_weights.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -57,15 +57,24 @@ POINTREEL_INLINE float stretched(const CountedBit& bit) {
   return kStretchTable[bit.p_one() >> (kProbabilityBits - bit_mixer_detail::kStretchIndexBits)];
 }
 
+POINTREEL_INLINE Probability16 squashed(float stretch) {
+  constexpr auto kMost = static_cast<float>(kMaxStretch);
+  const float index = clamped(stretch * (1 / kStretchUnit) + (kMost + 0.5F), 0, 2 * kMost);
+  return kSquashTable[static_cast<std::uint32_t>(static_cast<std::int32_t>(index))];
+}
+
+// By how much a coded bit was underestimated: within +-1.
+POINTREEL_INLINE float coding_error(Probability16 p_one, bool bit) {
+  return static_cast<float>((bit ? 65536 : 0) - static_cast<std::int32_t>(p_one)) * (1.F / 65536);
+}
+
 template <std::size_t kInputs, std::size_t kWeights>
 POINTREEL_INLINE Probability16 mix(const MixerWeights<kWeights>& mixer,
                                    const std::array<float, kInputs>& inputs) {
   static_assert(kInputs <= kWeights);
-  constexpr auto kMost = static_cast<float>(kMaxStretch);
   float sum = mixer.weight[0] * inputs[0];
   for (std::size_t i = 1; i < kInputs; ++i) sum = sum + mixer.weight[i] * inputs[i];
-  const float index = clamped(sum * (1 / kStretchUnit) + (kMost + 0.5F), 0, 2 * kMost);
-  return kSquashTable[static_cast<std::uint32_t>(static_cast<std::int32_t>(index))];
+  return squashed(sum);
 }
 
 // `p_one` is what mix() gave for these inputs. Weights move by rate * error * input: at most rate * 8 a bit,
@@ -73,8 +82,7 @@ POINTREEL_INLINE Probability16 mix(const MixerWeights<kWeights>& mixer,
 template <std::size_t kInputs, std::size_t kWeights>
 POINTREEL_INLINE void learn(MixerWeights<kWeights>& mixer, const std::array<float, kInputs>& inputs,
                             Probability16 p_one, bool bit, float rate) {
-  const float error =
-      static_cast<float>((bit ? 65536 : 0) - static_cast<std::int32_t>(p_one)) * (rate * (1.F / 65536));
+  const float error = coding_error(p_one, bit) * rate;
   for (std::size_t i = 0; i < kInputs; ++i) mixer.weight[i] = mixer.weight[i] + error * inputs[i];
 }
 

@@ -13,10 +13,14 @@ struct CodingKind {
   Effort effort = Effort::balanced;
 };
 
+// Whether the experts are trusted by the circumstances of a cell (expert_trust.h).
+constexpr bool has_trust(const CodingKind& kind) {
+  return kind.predicted && kind.effort == Effort::max;
+}
+
 // Experts of the mixture that predicts the ranges of such a frame; effort fast has none.
 constexpr std::size_t experts_of(const CodingKind& kind) {
-  if (kind.effort == Effort::fast) return 0;
-  return kind.predicted && kind.effort == Effort::max ? 24 : 16;
+  return kind.effort == Effort::fast ? 0 : 16;
 }
 
 }  // namespace pointreel

@@ -46,15 +46,7 @@ enum PredictedExpert : std::uint8_t {
   kReferenceRight = 12,  // its neighbours: what moved
   kReferenceLeft = 13,
   kReferenceBelow = 14,
-  kReferenceMean = 15,       // mean of three cells, plus the mean difference to what is coded around
-  kReferenceShifted = 16,    // the cell itself, plus that difference
-  kReferenceAboveStep = 17,  // the step from the cell above
-  kPredictedStep = 18,
-  kPredictedAboveLeft = 19,
-  kPredictedAboveRight2 = 20,
-  kPredictedLeft3 = 21,
-  kPredictedMeanLeft = 22,
-  kPredictedEarlierEdge = 23,
+  kReferenceMean = 15,  // mean of three cells, plus the mean difference to what is coded around
 };
 
 // Eight cells' proposals, a range per expert.
@@ -192,19 +184,6 @@ HWY_NOINLINE Proposals<kExperts> propose_for_predicted_frame(const Neighbourhood
       count = count + where(smooth, all<8>(1));
     }
     range_m[kReferenceMean] = around.or_start(where(seen(here), sum / count + shift));
-  }
-  if constexpr (kExperts == 24) {
-    const Float8 north = reference.range_m(0, -1);
-    range_m[kReferenceShifted] = around.or_start(where(seen(here), here + shift));
-    range_m[kReferenceAboveStep] =
-        around.if_likely(where(seen(here) & seen(north) & seen(around.above), around.above + (here - north)));
-    range_m[kPredictedStep] = around.step_from_above();
-    range_m[kPredictedAboveLeft] = around.or_start(around.above_left);
-    range_m[kPredictedAboveRight2] =
-        around.or_start(select(seen(around.above_right2), around.above_right2, around.above_right));
-    range_m[kPredictedLeft3] = around.or_start(cells.range_m(-3));
-    range_m[kPredictedMeanLeft] = around.mean_left();
-    range_m[kPredictedEarlierEdge] = around.or_start(memory.earlier_edge_m());
   }
   return proposals;
 }

@@ -69,7 +69,7 @@ struct Alternatives {
 
 class FastRangeModel {
  public:
-  FastRangeModel(int columns, const BandSetting& setting, RangeModelState& state)
+  FastRangeModel(int columns, const BandSetting& setting, BandState& state)
       : step_m_(setting.quantiser.step_m),
         per_step_(1 / step_m_),
         on_lattice_(setting.quantiser.on_lattice()),
@@ -129,7 +129,7 @@ class FastRangeModel {
   POINTREEL_INLINE float take_known(std::size_t cell, float range_m) { return decoded_m_[cell] = range_m; }
 
   // (Nothing of one cell waits for another.)
-  POINTREEL_INLINE void start(std::size_t /*cell*/) {}
+  POINTREEL_INLINE void start(std::size_t /*cell*/, int /*row*/) {}
   POINTREEL_INLINE void learn(std::size_t /*cell*/) {}
 
   // Codes the range of one that holds a return and gives back the reconstruction, within half a step of

@@ -89,16 +89,23 @@ class Mixture {
           per_class.inverse_scale.data());
   }
 
- private:
+ protected:
   static POINTREEL_INLINE Lanes clamped(const Lanes& x, float least, float most) {
     return larger(smaller(x, all<kExperts>(most)), all<kExperts>(least));
   }
+  static POINTREEL_INLINE Lanes signed_cdf(const Lanes& z) {
+    const Lanes one = all<kExperts>(1);
+    const Lanes size = absolute(z);
+    return z * (one + size) / (one + size * (one + size));
+  }
 
   Lanes proposals_m_;
-  std::size_t error_class_;
   Lanes weight_;         // their sum is 1 / per_total_weight_
   Lanes inverse_scale_;  // per metre
   float per_total_weight_;
+
+ private:
+  std::size_t error_class_;
 };
 
 }  // namespace HWY_NAMESPACE

@@ -58,10 +58,19 @@ class PriorReader {
 }  // namespace
 
 BandState state_from_priors(const CodingKind& kind, float step_m, const Band& band) {
-  BandState state{HitMaskState(static_cast<std::size_t>(band.rows)), {}};
+  BandState state{HitMaskState(static_cast<std::size_t>(band.rows)), {}, {}, {}};
   PriorReader mask(hit_mask_priors(kind));
   visit_hit_mask_state(state.mask, kind, mask);
   PriorReader ranges(range_priors(kind, prior_set(step_m)));
+  if (kind.effort == Effort::fast) {
+    visit_fast_range_state(state.fast, ranges);
+    return state;
+  }
+  if (has_trust(kind)) {
+    state.trust.make();
+    visit_max_range_state(state.trust, ranges);
+    return state;
+  }
   visit_range_state(state.ranges, kind, ranges);
   for (MixtureState::PerClass& at : state.ranges.mixture.classes) {
     float total = 0;

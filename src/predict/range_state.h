@@ -7,12 +7,11 @@
 
 #include "entropy/bit_mixer.h"
 #include "predict/coding_kind.h"
-#include "predict/fast_range_state.h"
 #include "predict/mixer_weights.h"
 
 namespace pointreel {
 
-inline constexpr std::size_t kMostExperts = 24;
+inline constexpr std::size_t kMostExperts = 16;
 
 // An expert's class: half octaves of its recent mean squared error over the squared step.
 inline constexpr std::size_t kErrorClasses = 32;
@@ -52,13 +51,11 @@ struct StepModels {
 struct RangeModelState {
   MixtureState mixture;
   StepModels steps;
-  FastRangeState fast;  // all of it, for effort fast
 };
 
 // Shows a visitor all that adapts, in the order of the tables of priors (priors.h).
 template <class State, class Visitor>
 void visit_range_state(State& state, const CodingKind& kind, Visitor& visitor) {
-  if (kind.effort == Effort::fast) return visit_fast_range_state(state.fast, visitor);
   const std::size_t experts = experts_of(kind);
   for (auto& at : state.mixture.classes) {
     for (std::size_t k = 0; k < experts; ++k) visitor.logarithm(at.weight[k]);

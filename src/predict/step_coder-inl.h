@@ -48,14 +48,14 @@ POINTREEL_INLINE bool code_mixed(Coder& coder, bool second_stage, float p,
 }
 
 // The bins of one cell, as far as they are looked at.
-template <std::size_t kExperts>
+template <class Mixture>
 class Bins {
  public:
-  using Border = typename Mixture<kExperts>::Border;
+  using Border = typename Mixture::Border;
 
   POINTREEL_INLINE Bins() {}
   // Bin 0 is the one around `origin_m`.
-  POINTREEL_INLINE void start(const Mixture<kExperts>& mixture, float origin_m, float step_m) {
+  POINTREEL_INLINE void start(const Mixture& mixture, float origin_m, float step_m) {
     mixture_ = mixture;
     origin_m_ = origin_m;
     step_m_ = step_m;
@@ -69,40 +69,75 @@ class Bins {
   POINTREEL_INLINE void evaluate(std::int32_t below, Border& border) const {
     mixture_.evaluate(origin_m_ + (static_cast<float>(below) + 0.5F) * step_m_, border);
   }
-  // Learns that the coded bin is the one between `lower` and `upper`.
-  POINTREEL_INLINE void learn(const Ingredients& ingredients, MixtureState& state) const {
-    mixture_.learn(*lower, *upper, ingredients, state);
-  }
+  // The coded bin is then the one between `lower` and `upper`.
+  const Mixture& mixture() const { return mixture_; }
   float origin_m() const { return origin_m_; }
 
   Border *lower, *upper, *spare;
 
  private:
   Border borders_[3];
-  Mixture<kExperts> mixture_;
+  Mixture mixture_;
   float origin_m_;
   float step_m_;
 };
 
-// The questions about one cell.
-template <class Coder, std::size_t kExperts>
+// Answers the questions about one cell: the second stage over the mixture's answers.
+class SecondStage {
+ public:
+  POINTREEL_INLINE SecondStage(StepModels& models, const StepContext& at, bool in_use)
+      : models_(models), at_(at), in_use_(in_use) {}
+
+  template <class Coder>
+  POINTREEL_INLINE bool code_zero(Coder& coder, float p, bool zero) const {
+    return code_mixed(coder, in_use_, p,
+                      {&models_.zero_by_activity[at_.activity * StepModels::kErrors + at_.error],
+                       &models_.zero_by_spread[at_.spread * StepModels::kErrors + at_.error],
+                       &models_.zero_by_row[at_.row * StepModels::kAvailabilities + at_.availability]},
+                      models_.zero_mixers[at_.activity * StepModels::kAvailabilities + at_.availability],
+                      zero);
+  }
+  template <class Coder>
+  POINTREEL_INLINE bool code_sign(Coder& coder, float p, bool down) const {
+    return code_mixed(coder, in_use_, p,
+                      {&models_.sign_by_signs[at_.signs],
+                       &models_.sign_by_row[at_.row * StepModels::kAvailabilities + at_.availability]},
+                      models_.sign_mixers[at_.availability], down);
+  }
+  template <class Coder>
+  POINTREEL_INLINE bool code_more(Coder& coder, bool /*down*/, std::int32_t magnitude, float p,
+                                  bool more) const {
+    const auto step = static_cast<std::size_t>(magnitude - 1);
+    return code_mixed(coder, in_use_, p,
+                      {&models_.more_by_error[at_.error * StepModels::kUnarySteps + step],
+                       &models_.more_by_spread[at_.spread * StepModels::kUnarySteps + step]},
+                      models_.more_mixers[step * 4 + at_.activity / 4], more);
+  }
+
+ private:
+  StepModels& models_;
+  const StepContext& at_;
+  bool in_use_;
+};
+
+// The questions about one cell, which `Stage` answers.
+template <class Coder, class Mixture, class Stage>
 class StepCoder {
  public:
-  using Border = typename Mixture<kExperts>::Border;
+  using Border = typename Mixture::Border;
 
-  POINTREEL_INLINE StepCoder(Coder& coder, StepModels& models, Bins<kExperts>& bins, const StepContext& at,
-                             bool second_stage)
-      : coder_(coder), models_(models), bins_(bins), at_(at), second_stage_(second_stage) {}
+  POINTREEL_INLINE StepCoder(Coder& coder, Bins<Mixture>& bins, const Stage& stage)
+      : coder_(coder), bins_(bins), stage_(stage) {}
 
   // Codes `wanted` (ignored when decoding) and returns it. The bins' lower and upper are then the borders of
   // its bin.
   POINTREEL_INLINE std::int32_t code(std::int32_t wanted) {
     Border*& lower = bins_.lower;
     Border*& upper = bins_.upper;
-    if (code_zero(0.5F * (upper->mixed - lower->mixed), wanted == 0)) return 0;
+    if (stage_.code_zero(coder_, 0.5F * (upper->mixed - lower->mixed), wanted == 0)) return 0;
     const float tail_below = positive(1 + lower->mixed);
     const float tail_above = positive(1 - upper->mixed);
-    const bool down = code_sign(tail_below / (tail_below + tail_above), wanted < 0);
+    const bool down = stage_.code_sign(coder_, tail_below / (tail_below + tail_above), wanted < 0);
     // From here on the inner border is the one nearer to the prediction; the outer one is found anew.
     std::swap(lower, upper);
     return down ? -code_magnitude<true>(-wanted, tail_below, upper, lower)
@@ -125,7 +160,7 @@ class StepCoder {
     std::int32_t magnitude = 1;
     for (; magnitude <= kUnarySteps; ++magnitude) {
       const float beyond = tail_beyond<kDown>(magnitude, *outer);
-      if (!code_more(magnitude, beyond / tail, wanted > magnitude)) return magnitude;
+      if (!stage_.code_more(coder_, kDown, magnitude, beyond / tail, wanted > magnitude)) return magnitude;
       std::swap(inner, outer);
       tail = beyond;
     }
@@ -158,33 +193,9 @@ class StepCoder {
     return magnitude;
   }
 
-  POINTREEL_INLINE bool code_zero(float p, bool zero) {
-    return code_mixed(coder_, second_stage_, p,
-                      {&models_.zero_by_activity[at_.activity * StepModels::kErrors + at_.error],
-                       &models_.zero_by_spread[at_.spread * StepModels::kErrors + at_.error],
-                       &models_.zero_by_row[at_.row * StepModels::kAvailabilities + at_.availability]},
-                      models_.zero_mixers[at_.activity * StepModels::kAvailabilities + at_.availability],
-                      zero);
-  }
-  POINTREEL_INLINE bool code_sign(float p, bool down) {
-    return code_mixed(coder_, second_stage_, p,
-                      {&models_.sign_by_signs[at_.signs],
-                       &models_.sign_by_row[at_.row * StepModels::kAvailabilities + at_.availability]},
-                      models_.sign_mixers[at_.availability], down);
-  }
-  POINTREEL_INLINE bool code_more(std::int32_t magnitude, float p, bool more) {
-    const auto step = static_cast<std::size_t>(magnitude - 1);
-    return code_mixed(coder_, second_stage_, p,
-                      {&models_.more_by_error[at_.error * StepModels::kUnarySteps + step],
-                       &models_.more_by_spread[at_.spread * StepModels::kUnarySteps + step]},
-                      models_.more_mixers[step * 4 + at_.activity / 4], more);
-  }
-
   Coder& coder_;
-  StepModels& models_;
-  Bins<kExperts>& bins_;
-  const StepContext& at_;
-  bool second_stage_;
+  Bins<Mixture>& bins_;
+  const Stage& stage_;
 };
 
 }  // namespace HWY_NAMESPACE
