@@ -1,5 +1,6 @@
 // Which ingredients of the range model are in use. Streams have all of them; the ablation benchmark leaves
-// some out to see what they are worth.
+// some out to see what they are worth. Efforts fast and max have models of their own, which only heed
+// experts_off (max).
 #pragma once
 
 #include <cstdint>

@@ -1,0 +1,60 @@
+// Where else than at the blend a range may lie, for effort fast: the other surfaces that are seen around a
+// cell.
+
+#if defined(POINTREEL_PREDICT_ALTERNATIVES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef POINTREEL_PREDICT_ALTERNATIVES_INL_H_
+#undef POINTREEL_PREDICT_ALTERNATIVES_INL_H_
+#else
+#define POINTREEL_PREDICT_ALTERNATIVES_INL_H_
+#endif
+
+#include "predict/experts-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pointreel {
+namespace HWY_NAMESPACE {
+
+// The first two surfaces seen around each of eight cells that are neither the blend's nor each other's.
+struct Alternatives {
+  static constexpr std::size_t kMost = 2;
+  enum Kind : std::uint8_t { kNone, kStart, kAbove, kAboveRight, kOther };
+
+  alignas(32) float range_m[kMost][8];  // 0: none
+  alignas(32) std::int32_t kind[kMost][8];
+
+  POINTREEL_INLINE Alternatives() {}
+
+  POINTREEL_INLINE void find(const Neighbourhood& cells, const RowMemory& memory, const Surroundings& around,
+                             const Float8& blend_m, const Float8& apart_m) {
+    Float8 first_m = all<8>(0), second_m = all<8>(0);
+    Int8 first_kind = all_ints<8>(kNone), second_kind = all_ints<8>(kNone);
+    const auto look_at = [&](const Float8& seen_m, Kind its_kind) HWY_ATTR {
+      const Mask<8> another = seen(seen_m) & (apart_m < absolute(seen_m - blend_m));
+      const Mask<8> second =
+          another & seen(first_m) & (second_m <= all<8>(0)) & (apart_m < absolute(seen_m - first_m));
+      const Mask<8> first = another & (first_m <= all<8>(0));
+      second_m = select(second, seen_m, second_m);
+      second_kind = select(as_int_mask(second), all_ints<8>(its_kind), second_kind);
+      first_m = select(first, seen_m, first_m);
+      first_kind = select(as_int_mask(first), all_ints<8>(its_kind), first_kind);
+    };
+    look_at(around.start, kStart);
+    look_at(around.above, kAbove);
+    look_at(around.above_right, kAboveRight);
+    look_at(around.above_right2, kOther);
+    look_at(memory.edge_m(), kOther);
+    look_at(memory.earlier_edge_m(), kOther);
+    look_at(around.above_left, kOther);
+    look_at(cells.range_m(0, -2), kOther);
+    store(first_m, range_m[0]);
+    store(first_kind, kind[0]);
+    store(second_m, range_m[1]);
+    store(second_kind, kind[1]);
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace pointreel
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target
