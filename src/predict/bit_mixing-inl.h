@@ -9,6 +9,7 @@
 #define POINTREEL_PREDICT_BIT_MIXING_INL_H_
 #endif
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -66,6 +67,14 @@ POINTREEL_INLINE Probability16 squashed(float stretch) {
 // By how much a coded bit was underestimated: within +-1.
 POINTREEL_INLINE float coding_error(Probability16 p_one, bool bit) {
   return static_cast<float>((bit ? 65536 : 0) - static_cast<std::int32_t>(p_one)) * (1.F / 65536);
+}
+
+// Codes a bit by one model alone.
+template <class Coder>
+POINTREEL_INLINE bool code_counted(Coder& coder, CountedBit& model, bool bit) {
+  bit = coder.code_with(bit, std::clamp(model.p_one(), kMinProbability, 65536 - kMinProbability));
+  model.update(bit);
+  return bit;
 }
 
 template <std::size_t kInputs, std::size_t kWeights>

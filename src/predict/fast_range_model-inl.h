@@ -18,7 +18,8 @@
 
 #include "predict/alternatives-inl.h"
 #include "predict/band_coding.h"
-#include "predict/blend-inl.h"
+#include "predict/bit_mixing-inl.h"
+#include "predict/coded_ranges-inl.h"
 #include "predict/fast_experts-inl.h"
 #include "predict/fast_range_state.h"
 #include "predict/range_rounding-inl.h"
@@ -32,44 +33,29 @@ namespace HWY_NAMESPACE {
 class FastRangeModel {
  public:
   FastRangeModel(int columns, const BandSetting& setting, BandState& state)
-      : step_m_(setting.quantiser.step_m),
-        per_step_(1 / step_m_),
-        on_lattice_(setting.quantiser.on_lattice()),
-        planes_(columns),
-        errors_(columns),
-        steps_(columns),
-        state_(state.fast) {
+      : coded_(columns, setting.quantiser), per_step_(1 / coded_.step_m), state_(state.fast) {
     // Bins of small steps are coded in twos, fours or eights where errors are large.
     constexpr float kWideM = 0.02F;
-    for (float wide_m = 2 * step_m_; wide_m <= kWideM && most_shift_ < kMostShift; wide_m = 2 * wide_m)
+    for (float wide_m = 2 * coded_.step_m; wide_m <= kWideM && most_shift_ < kMostShift; wide_m = 2 * wide_m)
       ++most_shift_;
   }
 
   void start_block(bool first, const std::array<float, Wavefront::kRows>& lattice_phase_m) {
-    if (!first) {
-      planes_.start_next_block();
-      errors_.start_next_block();
-      steps_.start_next_block();
-    }
-    memory_ = RowMemory();
+    coded_.start_block(first, lattice_phase_m);
     lines_ = RowLines();
-    lattice_phase_m_ = lattice_phase_m;
   }
 
   // Eight cells without returns so far.
-  POINTREEL_INLINE void start_step() {
-    predicted_ = false;
-    store(all<8>(0), decoded_m_);
-    store(all_ints<8>(0), coded_steps_);
-  }
+  POINTREEL_INLINE void start_step() { coded_.start_step(); }
 
   // Looks at what is known of them; only needed before code().
   HWY_NOINLINE void predict(int step, const ReferencePlanes* /*none*/) {
-    const Neighbourhood cells(planes_, step);
-    const Surroundings around(cells, memory_, all<8>(0));
-    proposals_ = propose_fast(cells, memory_, lines_, around);
+    const Neighbourhood cells(coded_.planes, step);
+    const Surroundings around(cells, coded_.memory, all<8>(0));
+    coded_.proposals = propose_fast(cells, coded_.memory, lines_, around);
     Float8 precision[kFastExperts];
-    const Blend blend = weigh<kFastExperts>(errors_, cells, step, step_m_, proposals_, precision);
+    const Blend blend =
+        weigh<kFastExperts>(coded_.errors, cells, step, coded_.step_m, coded_.proposals, precision);
     store(blend.range_m, blend_m_);
     const Int8 error = octaves<FastRangeState::kErrors>(blend.squared_error);
     const Int8 spread = shifted_right<2>(octaves<4 * FastRangeState::kSpreads>(blend.spread));
@@ -77,18 +63,20 @@ class FastRangeModel {
     store(error, error_);
     store(shift, shift_);
     const Float8 apart_m =
-        (static_cast<float>(BinSymbols::kMostNear) * step_m_) * as_floats(power_of_two(shift));
-    alternatives_.find(cells, memory_, around, blend.range_m, apart_m);
+        (static_cast<float>(BinSymbols::kMostNear) * coded_.step_m) * as_floats(power_of_two(shift));
+    alternatives_.find(cells, coded_.memory, around, blend.range_m, apart_m);
     constexpr std::int32_t kKinds = FastRangeState::kKinds, kSpreads = FastRangeState::kSpreads;
     store(
         (error * all_ints<8>(kSpreads) + spread) * all_ints<8>(kKinds) + load_ints<8>(alternatives_.kind[0]),
         by_error_);
-    store(StepContexts::signs(steps_, step), by_signs_);
-    predicted_ = true;
+    store(StepContexts::signs(coded_.steps, step), by_signs_);
+    coded_.proposed = true;
   }
 
   // One of them holds a return whose range both sides know.
-  POINTREEL_INLINE float take_known(std::size_t cell, float range_m) { return decoded_m_[cell] = range_m; }
+  POINTREEL_INLINE float take_known(std::size_t cell, float range_m) {
+    return coded_.decoded_m[cell] = range_m;
+  }
 
   // (Nothing of one cell waits for another.)
   POINTREEL_INLINE void start(std::size_t /*cell*/, int /*row*/) {}
@@ -104,39 +92,32 @@ class FastRangeModel {
     if constexpr (!Coder::kDecodes) symbol = find_bin(cell, range_m, bin);
     symbol = code_symbol(coder, state_.by_error, static_cast<std::size_t>(by_error_[cell]), state_.by_signs,
                          static_cast<std::size_t>(by_signs_[cell]), symbol);
-    float origin_m = origin(cell, blend_m_[cell]);
+    float origin_m = coded_.quantised(blend_m_[cell], cell);
     if (symbol < BinSymbols::kAlternative) {
       bin.coarse = code_rest(coder, symbol, bin.coarse);
     } else if (symbol < BinSymbols::kFar) {
-      origin_m = origin(cell, alternatives_.range_m[symbol - BinSymbols::kAlternative][cell]);
+      origin_m = coded_.quantised(alternatives_.range_m[symbol - BinSymbols::kAlternative][cell], cell);
       bin.coarse = code_near_alternative(coder, cell, symbol - BinSymbols::kAlternative, bin.coarse);
     } else {
       bin.coarse = code_far(coder, static_cast<std::size_t>(error_[cell]), bin.coarse);
     }
     if (shift > 0) bin.fine = coder.code_bits(bin.fine, shift);
     const std::int32_t steps = bin.coarse * (1 << shift) + static_cast<std::int32_t>(bin.fine) - half(shift);
-    const float decoded_m = origin_m + static_cast<float>(steps) * step_m_;
-    decoded_m_[cell] = decoded_m > kSmallestRangeM ? decoded_m : kSmallestRangeM;
+    const float decoded_m = origin_m + static_cast<float>(steps) * coded_.step_m;
     const std::int32_t from_blend = symbol < BinSymbols::kAlternative ? steps
                                     : decoded_m < blend_m_[cell]      ? -kMostContextSteps
                                                                       : kMostContextSteps;
-    coded_steps_[cell] = std::clamp(from_blend, -kMostContextSteps, kMostContextSteps);
-    return decoded_m_[cell];
+    return coded_.take(cell, decoded_m, from_blend);
   }
 
   // What the eight decode to; 0 where there is no return.
-  POINTREEL_INLINE Float8 decoded_m() const { return load<8>(decoded_m_); }
+  POINTREEL_INLINE Float8 decoded_m() const { return load<8>(coded_.decoded_m); }
 
   // After the last of the eight: remembers them.
   HWY_NOINLINE void remember(int step) {
-    const Float8 decoded_m = this->decoded_m();
-    const Float8 inverse = where(seen(decoded_m), all<8>(1) / larger(decoded_m, all<8>(kSmallestRangeM)));
-    lines_.add(decoded_m, inverse, memory_.last_m(), Neighbourhood(planes_, step).inverse_range(0, -1));
-    store(decoded_m, planes_.range_m.at(step));
-    store(inverse, planes_.inverse_range.at(step));
-    store(load_ints<8>(coded_steps_), steps_.at(step));
-    remember_errors(proposals_, decoded_m, predicted_, step_m_, step, errors_);
-    memory_.add(decoded_m);
+    const Float8 last_m = coded_.memory.last_m();
+    const Float8 inverse = coded_.remember(step);
+    lines_.add(decoded_m(), inverse, last_m, Neighbourhood(coded_.planes, step).inverse_range(0, -1));
   }
 
  private:
@@ -149,12 +130,10 @@ class FastRangeModel {
   };
   static std::int32_t half(std::int32_t shift) { return (1 << shift) >> 1; }
 
-  float origin(std::size_t cell, float range_m) const {
-    return on_lattice_ ? nearest_on_lattice(range_m, step_m_, lattice_phase_m_[cell]) : range_m;
-  }
   Bin bin_from(std::size_t cell, float origin_m, float range_m) const {
     const std::int32_t shift = shift_[cell];
-    const std::int32_t steps = rounded((range_m - origin(cell, origin_m)) * per_step_) + half(shift);
+    const std::int32_t steps =
+        rounded((range_m - coded_.quantised(origin_m, cell)) * per_step_) + half(shift);
     return {steps >> shift, static_cast<std::uint32_t>(steps & ((1 << shift) - 1))};
   }
   static bool is_near(const Bin& bin) { return std::abs(bin.coarse) <= BinSymbols::kMostNear; }
@@ -173,9 +152,7 @@ class FastRangeModel {
     return BinSymbols::kFar;
   }
 
-  // Magnitudes 4,5 6..9 10..17 share a symbol: how many further bits there are, and what the others start
-  // from.
-  static int further_bits(std::size_t size) { return size <= 3 ? 0 : static_cast<int>(size) - 3; }
+  // Magnitudes 4,5 6..9 10..17 share a symbol: what they start from; further bits say which it is.
   static std::int32_t smallest(std::size_t size) {
     return size <= 3 ? static_cast<std::int32_t>(size) : 2 + (1 << (size - 3));
   }
@@ -191,8 +168,8 @@ class FastRangeModel {
     const std::size_t size = below ? BinSymbols::kZero - symbol : symbol - BinSymbols::kZero;
     std::int32_t magnitude = smallest(size);
     if (size > 3) {
-      magnitude += static_cast<std::int32_t>(
-          coder.code_bits(static_cast<std::uint32_t>(std::abs(coarse) - magnitude), further_bits(size)));
+      magnitude += static_cast<std::int32_t>(coder.code_bits(
+          static_cast<std::uint32_t>(std::abs(coarse) - magnitude), static_cast<int>(size) - 3));
     }
     return below ? -magnitude : magnitude;
   }
@@ -230,13 +207,6 @@ class FastRangeModel {
   }
   static constexpr std::uint32_t kMostBeyond = 1U << 26;
 
-  template <class Coder>
-  static bool code_counted(Coder& coder, CountedBit& model, bool bit) {
-    bit = coder.code_with(bit, std::clamp(model.p_one(), kMinProbability, 65536 - kMinProbability));
-    model.update(bit);
-    return bit;
-  }
-
   // Octaves of squared steps from 2^-6 on, clamped to kCount.
   template <std::size_t kCount>
   static POINTREEL_INLINE Int8 octaves(const Float8& squared_steps) {
@@ -256,26 +226,17 @@ class FastRangeModel {
     return power;
   }
 
-  float step_m_, per_step_;
-  bool on_lattice_;
+  CodedRanges<kFastExperts> coded_;
+  float per_step_;
   std::int32_t most_shift_ = 0;
-  RangePlanes planes_;
-  ErrorPlanes<kFastExperts> errors_;
-  SkewedPlane<std::int32_t> steps_;  // clipped
-  RowMemory memory_;
   RowLines lines_;
   FastRangeState& state_;
-  std::array<float, Wavefront::kRows> lattice_phase_m_{};
 
   // Of the eight cells at hand.
-  Proposals<kFastExperts> proposals_;
   Alternatives alternatives_;
   alignas(32) float blend_m_[Wavefront::kRows];
   alignas(32) std::int32_t error_[Wavefront::kRows], shift_[Wavefront::kRows];
   alignas(32) std::int32_t by_error_[Wavefront::kRows], by_signs_[Wavefront::kRows];
-  alignas(32) float decoded_m_[Wavefront::kRows];
-  alignas(32) std::int32_t coded_steps_[Wavefront::kRows];
-  bool predicted_ = false;
 };
 
 }  // namespace HWY_NAMESPACE

@@ -40,7 +40,7 @@ class HitMaskModel {
   POINTREEL_INLINE bool are_sure() const { return contexts_.are_sure(); }
   template <class Coder>
   POINTREEL_INLINE bool code_together(Coder& coder, bool hits) {
-    return code_alone(coder, state_.together, hits);
+    return code_counted(coder, state_.together, hits);
   }
 
   // Codes the bit of one of them; a decoder passes anything and gets it. `row`: in the band.
@@ -81,16 +81,10 @@ class HitMaskModel {
   // Amid hits, mixing would only take time.
   template <class Coder>
   POINTREEL_INLINE bool code_sure(Coder& coder, std::size_t cell, bool hit) {
-    hit = code_alone(coder, state_.sure[static_cast<std::size_t>(contexts_.slot[HitMaskState::kEdges][cell])],
-                     hit);
+    hit = code_counted(
+        coder, state_.sure[static_cast<std::size_t>(contexts_.slot[HitMaskState::kEdges][cell])], hit);
     hits_[cell] = hit ? 1 : 0;
     return hit;
-  }
-  template <class Coder>
-  static POINTREEL_INLINE bool code_alone(Coder& coder, CountedBit& bit, bool value) {
-    value = coder.code_with(value, std::clamp(bit.p_one(), kMinProbability, 65536 - kMinProbability));
-    bit.update(value);
-    return value;
   }
 
   HitMaskPlanes planes_;

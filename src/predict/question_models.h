@@ -21,7 +21,7 @@ struct QuestionModels {
   std::array<std::vector<MixerWeights<kInputs>>, kMixers> mixers;
 };
 
-// Contexts: two of a question's own, then where four triples of proposals lie (max_questions-inl.h).
+// Contexts: two of a question's own, then where four triples of proposals lie (max_second_stage-inl.h).
 struct MaxQuestionModels {
   static constexpr std::size_t kOwn = 2;
   static constexpr std::size_t kTriples = 7 * 7 * 7;

@@ -1,0 +1,96 @@
+// What a range model knows of the cells that are coded: the memory that its predictions look at.
+
+#if defined(POINTREEL_PREDICT_CODED_RANGES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef POINTREEL_PREDICT_CODED_RANGES_INL_H_
+#undef POINTREEL_PREDICT_CODED_RANGES_INL_H_
+#else
+#define POINTREEL_PREDICT_CODED_RANGES_INL_H_
+#endif
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "predict/blend-inl.h"
+#include "predict/range_quantiser.h"
+#include "predict/range_rounding-inl.h"
+#include "predict/row_memory-inl.h"
+#include "predict/step_context-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pointreel {
+namespace HWY_NAMESPACE {
+
+template <std::size_t kExperts>
+struct CodedRanges {
+  float step_m;
+  bool on_lattice;
+  RangePlanes planes;
+  ErrorPlanes<kExperts> errors;
+  SkewedPlane<std::int32_t> steps;  // clipped
+  RowMemory memory;
+  std::array<float, Wavefront::kRows> lattice_phase_m{};
+
+  // Of the eight cells at hand.
+  Proposals<kExperts> proposals;
+  bool proposed = false;
+  alignas(32) float decoded_m[Wavefront::kRows];
+  alignas(32) std::int32_t coded_steps[Wavefront::kRows];
+
+  CodedRanges(int columns, const RangeQuantiser& quantiser)
+      : step_m(quantiser.step_m),
+        on_lattice(quantiser.on_lattice()),
+        planes(columns),
+        errors(columns),
+        steps(columns) {}
+
+  // `phase_m`: per row, where its lattice has a point.
+  void start_block(bool first, const std::array<float, Wavefront::kRows>& phase_m) {
+    if (!first) {
+      planes.start_next_block();
+      errors.start_next_block();
+      steps.start_next_block();
+    }
+    memory = RowMemory();
+    lattice_phase_m = phase_m;
+  }
+
+  // Eight cells without returns so far.
+  POINTREEL_INLINE void start_step() {
+    proposed = false;
+    store(all<8>(0), decoded_m);
+    store(all_ints<8>(0), coded_steps);
+  }
+
+  // Where the bins around a proposal of the cell have their origin.
+  POINTREEL_INLINE float quantised(float range_m, std::size_t cell) const {
+    return on_lattice ? nearest_on_lattice(range_m, step_m, lattice_phase_m[cell]) : range_m;
+  }
+
+  // What a cell decodes to, and the steps that its neighbours' contexts see.
+  POINTREEL_INLINE float take(std::size_t cell, float range_m, std::int32_t steps_from_prediction) {
+    decoded_m[cell] = range_m > kSmallestRangeM ? range_m : kSmallestRangeM;
+    coded_steps[cell] = steps_from_prediction < -kMostContextSteps  ? -kMostContextSteps
+                        : steps_from_prediction > kMostContextSteps ? kMostContextSteps
+                                                                    : steps_from_prediction;
+    return decoded_m[cell];
+  }
+
+  // After the last of the eight. Returns 1 / range; 0 where there is no return.
+  POINTREEL_INLINE Float8 remember(int step) {
+    const Float8 range_m = load<8>(decoded_m);
+    const Float8 inverse = where(seen(range_m), all<8>(1) / larger(range_m, all<8>(kSmallestRangeM)));
+    store(range_m, planes.range_m.at(step));
+    store(inverse, planes.inverse_range.at(step));
+    store(load_ints<8>(coded_steps), steps.at(step));
+    remember_errors(proposals, range_m, proposed, step_m, step, errors);
+    memory.add(range_m);
+    return inverse;
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace pointreel
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target
