@@ -1,15 +1,14 @@
 // parallel_for: independent tasks 0 .. count-1 on a given number of threads.
 //
-// Threads are started per call (tens of microseconds, against milliseconds of work per task). OpenMP and TBB
-// were passed over because ThreadSanitizer cannot see into their uninstrumented runtimes and reports false
-// races.
+// OpenMP and TBB were passed over because ThreadSanitizer cannot see into their uninstrumented runtimes and
+// reports false races.
 #pragma once
 
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <functional>
 #include <thread>
-#include <vector>
 
 namespace pointreel {
 
@@ -17,6 +16,10 @@ namespace pointreel {
 inline int resolve_threads(int threads) {
   return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
+
+// Calls work() here and, while that runs, on as many as `others` threads of a pool that the process keeps (on
+// fewer where they are busy). Returns when all calls have returned.
+void run_with_others(std::size_t others, const std::function<void()>& work);
 
 // Calls task(i) once for each i, in any order; returns when all are done. Tasks must not throw.
 template <class Task>
@@ -27,13 +30,9 @@ void parallel_for(std::size_t count, int threads, const Task& task) {
     return;
   }
   std::atomic<std::size_t> next{0};
-  const auto work = [&] {
+  run_with_others(workers - 1, [&] {
     for (std::size_t i = next.fetch_add(1); i < count; i = next.fetch_add(1)) task(i);
-  };
-  std::vector<std::jthread> others;
-  others.reserve(workers - 1);
-  for (std::size_t w = 1; w < workers; ++w) others.emplace_back(work);
-  work();
-}  // jthread joins
+  });
+}
 
 }  // namespace pointreel

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
+#include <thread>
 #include <vector>
 
 namespace pointreel {
@@ -31,6 +34,42 @@ TEST(ParallelFor, TakesNonsenseThreadCountsAsOne) {
     std::size_t sum = 0;  // not atomic: one thread only
     parallel_for(10, threads, [&](std::size_t i) { sum += i; });
     EXPECT_EQ(sum, 45u);
+  }
+}
+
+TEST(ParallelFor, RunsInsideItself) {
+  std::vector<std::atomic<int>> calls(20 * 30);
+  parallel_for(20, 3,
+               [&](std::size_t i) { parallel_for(30, 3, [&](std::size_t k) { ++calls.at(i * 30 + k); }); });
+  for (const auto& count : calls) EXPECT_EQ(count, 1);
+}
+
+TEST(ParallelFor, ServesSeveralCallersAtOnce) {
+  std::vector<std::size_t> sums(4);
+  std::vector<std::thread> callers;
+  for (std::size_t& sum : sums) {
+    callers.emplace_back([&sum] {
+      for (int round = 0; round < 200; ++round) {
+        std::atomic<std::size_t> part{0};
+        parallel_for(round % 10, 3, [&](std::size_t i) { part += i + 1; });
+        sum += part;
+      }
+    });
+  }
+  for (std::thread& caller : callers) caller.join();
+  for (const std::size_t sum : sums) EXPECT_EQ(sum, 20u * (1 + 3 + 6 + 10 + 15 + 21 + 28 + 36 + 45));
+}
+
+TEST(ParallelFor, WakesThreadsThatFellAsleep) {
+  for (int round = 0; round < 5; ++round) {
+    std::atomic<int> together{0};
+    // Each waits for the other: one thread alone would wait in vain.
+    parallel_for(2, 2, [&](std::size_t) {
+      ++together;
+      while (together.load() < 2) std::this_thread::yield();
+    });
+    EXPECT_EQ(together, 2);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
 }
 
