@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
+#include <cstdint>
 
 namespace pointreel {
 namespace {
@@ -14,38 +14,36 @@ constexpr double kBitsPerOctave = 0.7;
 // Ranges are float32: the decoded one is this much coarser than the step says.
 constexpr double kFloatRounding = 1.5 / (1 << 24);
 
-// Of values that are left so that all before it are no greater: asked for descending shares, each takes less
-// work than the one before.
-float quantile(std::vector<float>& values, double share, std::size_t& end) {
-  const auto place = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
-  const auto at = [&](std::size_t k) { return values.begin() + static_cast<std::ptrdiff_t>(k); };
-  std::nth_element(at(0), at(place), at(end));
-  end = place + 1;
-  return values[place];
-}
-
 }  // namespace
 
 RangeQuantiser choose_quantiser(const SensorModel& model, const GriddedSweep& sweep, double max_error_m) {
-  std::vector<float> deviations_m;
-  double farthest_m = 0;
+  // How far points are off their rays, by parts of the bound; the last one is for those beyond it.
+  constexpr std::size_t kParts = 512;
   constexpr std::size_t kSampleEvery = 7;
+  std::array<std::uint32_t, kParts + 1> points_in_part{};
+  const auto parts_per_m = static_cast<float>(kParts / max_error_m);
+  std::uint32_t points = 0;
+  float farthest_m = 0;
   for (std::size_t i = 0; i < sweep.cell_of_point.size(); i += kSampleEvery) {
     if (sweep.cell_of_point[i] < 0) continue;
-    deviations_m.push_back(sweep.deviation_m[i]);
-    farthest_m = std::max(farthest_m, static_cast<double>(sweep.range_m[i]));
+    const float part = sweep.deviation_m[i] * parts_per_m;
+    ++points_in_part[part < kParts ? static_cast<std::size_t>(part) : kParts];
+    ++points;
+    farthest_m = std::max(farthest_m, sweep.range_m[i]);
   }
-  double best_step_m = 0, best_bits = 0;
-  std::size_t end = deviations_m.size();
 
   // For deviations up to d the range may be off by sqrt(E^2 - d^2); of the points beyond, those near the
   // border of their bin miss.
-  for (const double share : {1.0, 0.999, 0.99, 0.97, 0.9, 0.75, 0.5, 0.25, 0.0}) {
-    const double deviation_m = deviations_m.empty() ? 0 : quantile(deviations_m, share, end);
-    const double left_m = std::sqrt(std::max(0.0, max_error_m * max_error_m - deviation_m * deviation_m));
-    const double step_m = 2 * (left_m - kFloatRounding * farthest_m);
-    if (step_m < max_error_m / 8) continue;
-    const double bits = -kBitsPerOctave * std::log2(step_m) + kCorrectionBits * 0.5 * (1 - share);
+  double best_step_m = 0, best_bits = 0;
+  std::uint32_t within = 0;
+  for (std::size_t part = 0; part < kParts; ++part) {
+    within += points_in_part[part];
+    const double deviation_m = static_cast<double>(part + 1) / kParts * max_error_m;
+    const double left_m = std::sqrt(max_error_m * max_error_m - deviation_m * deviation_m);
+    const double step_m = 2 * (left_m - kFloatRounding * static_cast<double>(farthest_m));
+    if (step_m < max_error_m / 8) break;
+    const double beyond = static_cast<double>(points - within) / std::max(points, 1U);
+    const double bits = -kBitsPerOctave * std::log2(step_m) + kCorrectionBits * 0.5 * beyond;
     if (best_step_m == 0 || bits < best_bits) {
       best_step_m = step_m;
       best_bits = bits;

@@ -1,19 +1,19 @@
 #include "predict/bands.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "predict/wavefront.h"
 
 namespace pointreel {
 namespace {
 
-// The octave of a number from 1 on.
+// The octave of a number from 1 on: its exponent.
 int octave(float x) {
-  int exponent = 0;
-  std::frexp(x, &exponent);
-  return exponent - 1;
+  return static_cast<int>(std::bit_cast<std::uint32_t>(x) >> 23) - 127;
 }
 
 // Time that coding a row takes, in about 70 ns: one for each cell, for each return, and for each octave by
