@@ -18,6 +18,7 @@
 
 #include "predict/alternatives-inl.h"
 #include "predict/band_coding.h"
+#include "predict/bin_symbols.h"
 #include "predict/bit_mixing-inl.h"
 #include "predict/coded_ranges-inl.h"
 #include "predict/fast_experts-inl.h"
@@ -141,7 +142,7 @@ class FastRangeModel {
   // Near what the range is, and in which bin from there.
   POINTREEL_INLINE std::size_t find_bin(std::size_t cell, float range_m, Bin& bin) const {
     bin = bin_from(cell, blend_m_[cell], range_m);
-    if (is_near(bin)) return symbol_of(bin.coarse);
+    if (is_near(bin)) return kBinSymbols.symbol_of(bin.coarse);
     for (std::size_t i = 0; i < Alternatives::kMost && alternatives_.kind[i][cell] != Alternatives::kNone;
          ++i) {
       const Bin from_alternative = bin_from(cell, alternatives_.range_m[i][cell], range_m);
@@ -152,26 +153,13 @@ class FastRangeModel {
     return BinSymbols::kFar;
   }
 
-  // Magnitudes 4,5 6..9 10..17 share a symbol: what they start from; further bits say which it is.
-  static std::int32_t smallest(std::size_t size) {
-    return size <= 3 ? static_cast<std::int32_t>(size) : 2 + (1 << (size - 3));
-  }
-  static std::size_t symbol_of(std::int32_t coarse) {
-    const auto magnitude = static_cast<std::uint32_t>(std::abs(coarse));
-    const std::size_t size =
-        magnitude <= 3 ? magnitude : static_cast<std::size_t>(std::bit_width(magnitude - 2)) + 2;
-    return coarse < 0 ? BinSymbols::kZero - size : BinSymbols::kZero + size;
-  }
   template <class Coder>
   static POINTREEL_INLINE std::int32_t code_rest(Coder& coder, std::size_t symbol, std::int32_t coarse) {
-    const bool below = symbol < BinSymbols::kZero;
-    const std::size_t size = below ? BinSymbols::kZero - symbol : symbol - BinSymbols::kZero;
-    std::int32_t magnitude = smallest(size);
-    if (size > 3) {
-      magnitude += static_cast<std::int32_t>(coder.code_bits(
-          static_cast<std::uint32_t>(std::abs(coarse) - magnitude), static_cast<int>(size) - 3));
-    }
-    return below ? -magnitude : magnitude;
+    const BinSymbols::Group& group = kBinSymbols.group[symbol];
+    if (group.bits == 0) return group.nearest;
+    const std::int32_t beyond = static_cast<std::int32_t>(
+        coder.code_bits(static_cast<std::uint32_t>(std::abs(coarse - group.nearest)), group.bits));
+    return group.nearest + (group.nearest < 0 ? -beyond : beyond);
   }
 
   template <class Coder>
@@ -180,7 +168,7 @@ class FastRangeModel {
     const bool farther = alternatives_.range_m[alternative][cell] > blend_m_[cell];
     const std::size_t table =
         static_cast<std::size_t>(alternatives_.kind[alternative][cell]) * 2 + (farther ? 1 : 0);
-    std::size_t symbol = Coder::kDecodes ? 0 : symbol_of(coarse);
+    std::size_t symbol = Coder::kDecodes ? 0 : kBinSymbols.symbol_of(coarse);
     symbol = code_symbol(coder, state_.of_alternative, table, symbol);
     return code_rest(coder, std::min(symbol, BinSymbols::kAlternative - 1), coarse);
   }

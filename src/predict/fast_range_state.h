@@ -10,18 +10,6 @@
 
 namespace pointreel {
 
-// What a symbol says of a cell: its bin, as the distance from the one predicted, or where else to look.
-//
-//   0 .. 12     -(10..17) -(6..9) -(4,5) -3 -2 -1 0 1 2 3 4,5 6..9 10..17, with further bits
-//   13, 14      near the first or second alternative (fast_range_model-inl.h)
-//   15          far from all of them
-struct BinSymbols {
-  static constexpr std::size_t kZero = 6;
-  static constexpr std::size_t kAlternative = 13;
-  static constexpr std::size_t kFar = 15;
-  static constexpr std::int32_t kMostNear = 17;  // bins from the prediction
-};
-
 struct FastRangeState {
   static constexpr std::size_t kErrors = 20;  // octaves of the blend's recent squared error
   static constexpr std::size_t kSpreads = 4;  // four octaves each of how far the proposals lie apart

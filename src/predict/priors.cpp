@@ -1,10 +1,13 @@
 #include "predict/priors.h"
 
+#include <array>
+#include <cstdint>
+
 namespace pointreel {
 namespace {
 
-// 2^(eighths / 8), exact to a rounding: + - * / only.
-float power_of_two(int eighths) {
+// 2^(eighths / 8) for all eighths of eight bits, exact to a rounding: + - * / only.
+constexpr auto kPowersOfTwo = [] {
   constexpr double kFractions[8] = {1,
                                     1.0905077326652577,
                                     1.1892071150027210,
@@ -14,10 +17,18 @@ float power_of_two(int eighths) {
                                     1.6817928305074290,
                                     1.8340080864093424};
   static_assert(kPriorsPerOctave == 8);
-  double result = kFractions[eighths & 7];
-  for (int octaves = eighths >> 3; octaves > 0; --octaves) result *= 2;
-  for (int octaves = eighths >> 3; octaves < 0; ++octaves) result /= 2;
-  return static_cast<float>(result);
+  std::array<float, 256> powers{};
+  for (int eighths = -128; eighths < 128; ++eighths) {
+    double power = kFractions[eighths & 7];
+    for (int octaves = eighths >> 3; octaves > 0; --octaves) power *= 2;
+    for (int octaves = eighths >> 3; octaves < 0; ++octaves) power /= 2;
+    powers[static_cast<std::size_t>(eighths + 128)] = static_cast<float>(power);
+  }
+  return powers;
+}();
+
+float power_of_two(std::int8_t eighths) {
+  return kPowersOfTwo[static_cast<std::size_t>(eighths + 128)];
 }
 
 // Reads a table.

@@ -7,6 +7,7 @@
 #define POINTREEL_PREDICT_RANGE_ROUNDING_INL_H_
 #endif
 
+#include <cmath>
 #include <cstdint>
 
 #include "base/lanes-inl.h"
@@ -20,7 +21,7 @@ POINTREEL_INLINE std::int32_t rounded(float x) {
   constexpr float kMost = 1 << 30;
   x = x < kMost ? x : kMost;
   x = x > -kMost ? x : -kMost;
-  return x < 0 ? -static_cast<std::int32_t>(0.5F - x) : static_cast<std::int32_t>(x + 0.5F);
+  return static_cast<std::int32_t>(x + std::copysign(0.5F, x));  // a branch would be mispredicted
 }
 
 // The nearest of a row's multiples of `step_m` plus `phase_m`.

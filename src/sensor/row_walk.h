@@ -52,8 +52,11 @@ class RowWalk {
         model_(model),
         order_(grid.order),
         seam_(azimuth_of_tick(grid.order.seam_tick, grid.ticks_per_turn)),
-        place_(grid.column_count()),
-        keys_(grid.column_count() + 1) {
+        column_(grid.column_count() + 1),
+        azimuth_here_(grid.column_count() + 1),
+        range_here_m_(grid.column_count() + 1),
+        place_(grid.column_count() + 1),
+        keys_(grid.column_count()) {
     azimuth_.reserve(grid.column_count());
     for (const std::uint32_t tick : grid.column_tick)
       azimuth_.push_back(azimuth_of_tick(tick, grid.ticks_per_turn));
@@ -63,19 +66,10 @@ class RowWalk {
   void list(std::uint32_t row, std::uint32_t* cells) {
     const auto columns = static_cast<std::uint32_t>(azimuth_.size());
     const std::uint32_t first_cell = row * columns;
-    find_places(model_.rows[row], range_m_.subspan(first_cell, columns));
+    const std::size_t taken = gather(first_cell, columns);
+    find_places(model_.rows[row], taken);
     // In the direction of the walk they ascend but for one step back, at the seam.
-    const std::uint8_t* occupied = &occupied_[first_cell];
-    std::size_t taken = 0;
-    const auto take = [&](std::uint32_t c) {
-      keys_[taken] = (std::uint64_t{place_[c]} << 32) | c;
-      taken += occupied[c] != 0 ? 1 : 0;  // branches on single cells would be mispredicted
-    };
-    if (order_.descending) {
-      for (std::uint32_t c = columns; c-- > 0;) take(c);
-    } else {
-      for (std::uint32_t c = 0; c < columns; ++c) take(c);
-    }
+    for (std::size_t k = 0; k < taken; ++k) keys_[k] = (std::uint64_t{place_[k]} << 32) | column_[k];
     const auto keys = std::span(keys_).first(taken);
     begin_at_seam(keys);
     sort_nearly_sorted(keys);
@@ -83,20 +77,40 @@ class RowWalk {
   }
 
  private:
-  void find_places(const RowModel& laser, std::span<const float> range_m) {
+  // The row's occupied cells in the direction of the walk, as many as it returns.
+  std::size_t gather(std::uint32_t first_cell, std::uint32_t columns) {
+    const std::uint8_t* occupied = &occupied_[first_cell];
+    const float* range_m = &range_m_[first_cell];
+    std::size_t taken = 0;
+    const auto take = [&](std::uint32_t c) {
+      column_[taken] = c;
+      azimuth_here_[taken] = azimuth_[c];
+      range_here_m_[taken] = range_m[c];
+      taken += occupied[c];  // branches on single cells would be mispredicted
+    };
+    if (order_.descending) {
+      for (std::uint32_t c = columns; c-- > 0;) take(c);
+    } else {
+      for (std::uint32_t c = 0; c < columns; ++c) take(c);
+    }
+    return taken;
+  }
+
+  void find_places(const RowModel& laser, std::size_t count) {
     const std::uint32_t turn = row_turn(order_.kind, laser) - seam_;
     const std::uint32_t flip = order_.descending ? 0xffffffff : 0;
     std::uint32_t* place = place_.data();
-    const std::uint32_t* azimuth = azimuth_.data();
+    const std::uint32_t* azimuth = azimuth_here_.data();
     if (order_.kind != OrderKind::row_azimuth) {
-      for (std::size_t c = 0; c < range_m.size(); ++c) place[c] = (azimuth[c] + turn) ^ flip;
+      for (std::size_t k = 0; k < count; ++k) place[k] = (azimuth[k] + turn) ^ flip;
       return;
     }
     const float cosine = cosine_of(laser);
     const auto side_m = static_cast<float>(laser.side_offset_m);
-    for (std::size_t c = 0; c < range_m.size(); ++c) {
-      const auto turned_by = static_cast<std::uint32_t>(turned_by_side(side_m, range_m[c] * cosine));
-      place[c] = (azimuth[c] + turn + turned_by) ^ flip;
+    const float* range_m = range_here_m_.data();
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto turned_by = static_cast<std::uint32_t>(turned_by_side(side_m, range_m[k] * cosine));
+      place[k] = (azimuth[k] + turn + turned_by) ^ flip;
     }
   }
 
@@ -134,8 +148,11 @@ class RowWalk {
   PointOrder order_;
   std::uint32_t seam_;
   std::vector<std::uint32_t> azimuth_;  // of each column
-  std::vector<std::uint32_t> place_;    // per column of the row, from the seam in the walk's direction
-  std::vector<std::uint64_t> keys_;     // of the row's cells so far, and one to spare
+  // Of the row's cells in the direction of the walk, and one to spare.
+  std::vector<std::uint32_t> column_, azimuth_here_;
+  std::vector<float> range_here_m_;
+  std::vector<std::uint32_t> place_;  // from the seam in the walk's direction
+  std::vector<std::uint64_t> keys_;
 };
 
 }  // namespace pointreel
