@@ -35,4 +35,15 @@ void parallel_for(std::size_t count, int threads, const Task& task) {
   });
 }
 
+// Calls both, at once where there are threads.
+template <class One, class Other>
+void run_both(int threads, const One& one, const Other& other) {
+  parallel_for(2, threads, [&](std::size_t i) {
+    if (i == 0)
+      one();
+    else
+      other();
+  });
+}
+
 }  // namespace pointreel

@@ -1,15 +1,17 @@
 // The geometry of a sweep on its sensor's grid, as bytes: the core of method `mixture`.
 //
-//   project -> quantise -> code bands -> verify every point, correct those that miss -> order, strays
+//   cells -> planes -> code bands -> order -> verify every point, correct those that miss -> strays
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "base/bytes.h"
 #include "codec/image_sections.h"
 #include "codec/plane_section.h"
+#include "codec/sweep_cells.h"
 #include "pointreel/codec.h"
 #include "pointreel/point_cloud.h"
 #include "sensor/sensor_model.h"
@@ -45,18 +47,21 @@ struct GeometrySetting {
 GeometrySetting geometry_setting(const StreamHeader& header, const SensorModel& model, int threads,
                                  WarpMemory& warp_memory);
 
+// Those of a prediction, if there is one.
+std::optional<EarlierPlanes> earlier_planes(const std::optional<Prediction>& prediction);
+
 struct EncodedGeometry {
   CodedGeometry geometry;
   CodedImage image;
   std::vector<std::uint32_t> output_order;  // index in the input of each output point
 };
 
-// All points of `cloud` must be finite. `sweep`: its projection. `bursts`: those of the sort that was undone,
-// if one was (sensor/burst_sort.h). `prediction`: nullptr for a frame by itself; its pose is rounded for the
-// stream. Appends to `writer`.
+// All points of `cloud` must be finite. `sweep`: its projection; `sweep_cells`: its cells. `bursts`: those of
+// the sort that was undone, if one was (sensor/burst_sort.h). `prediction`: nullptr for a frame by itself;
+// its pose is rounded for the stream. Appends to `writer`.
 EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud& cloud, GriddedSweep sweep,
-                               std::span<const std::uint32_t> bursts, const Prediction* prediction,
-                               ByteWriter& writer, FrameStatistics& statistics);
+                               SweepCells sweep_cells, std::span<const std::uint32_t> bursts,
+                               const Prediction* prediction, ByteWriter& writer, FrameStatistics& statistics);
 
 struct DecodedGeometry {
   CodedGeometry geometry;

@@ -1,5 +1,5 @@
-// The sensor's grid, methods `mixture` and `planes`: find the sensor -> project -> find planes -> predict and
-// code -> verify -> fields -> packet.
+// The sensor's grid, methods `mixture` and `planes`: find the sensor -> project -> register, find cells ->
+// find planes -> predict and code -> verify -> fields -> packet.
 #include <algorithm>
 #include <numeric>
 #include <optional>
@@ -76,7 +76,14 @@ class MixtureEncoder final : public Encoder::Implementation {
     std::uint32_t reference_frame = packet.frame;
     if (auto gridded = on_grid(cloud)) {
       std::optional<Pose> T_ref_cur;
-      if (temporal_) T_ref_cur = alignment_.follow(*model_, *gridded, T_world_sensor, starts_group());
+      std::optional<SweepCells> cells;
+      const auto register_sweep = [&] {
+        if (temporal_) T_ref_cur = alignment_.follow(*model_, *gridded, T_world_sensor, starts_group());
+      };
+      const auto find_cells = [&] {
+        cells = cells_of_sweep(*model_, *gridded, header_.max_error_m, threads_);
+      };
+      run_both(threads_, register_sweep, find_cells);
       if (starts_group()) {
         put_model(writer, packet.statistics);
       } else {
@@ -87,8 +94,8 @@ class MixtureEncoder final : public Encoder::Implementation {
           T_ref_cur ? std::optional(Prediction{last_image_.reference, last_image_.planes, *T_ref_cur})
                     : std::nullopt;
       encoded = encode_gridded(geometry_setting(header_, *model_, threads_, warp_memory_), cloud,
-                               *std::move(gridded), bursts, prediction ? &*prediction : nullptr, writer,
-                               packet.statistics);
+                               *std::move(gridded), *std::move(cells), bursts,
+                               prediction ? &*prediction : nullptr, writer, packet.statistics);
       ++model_age_;
       if (temporal_ && !starts_group()) {
         last_image_ = std::move(encoded.image);
@@ -131,6 +138,7 @@ class MixtureEncoder final : public Encoder::Implementation {
     const auto strays = std::count(sweep.cell_of_point.begin(), sweep.cell_of_point.end(), -1);
     if (static_cast<double>(strays) > kMostStrays * static_cast<double>(cloud.size())) return std::nullopt;
     estimator_.add(cloud, &sweep);
+    drop_unreachable(cloud, header_.max_error_m, sweep);
     last_grid_ = sweep.grid;
     return sweep;
   }

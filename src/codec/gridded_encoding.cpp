@@ -1,0 +1,126 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "codec/corrections.h"
+#include "codec/grid_points.h"
+#include "codec/gridded_geometry.h"
+#include "codec/relative_pose.h"
+#include "codec/sections.h"
+#include "codec/verification.h"
+#include "scatter/stray_list.h"
+#include "sensor/order_moves.h"
+#include "sensor/point_order.h"
+#include "sensor/sensor_coding.h"
+
+namespace pointreel {
+namespace {
+
+// By how much the range of each cell of the sensor grid may be off, given how far its point is off its ray.
+std::vector<float> range_tolerances_m(const GriddedSweep& sweep, std::size_t cells, double max_error_m) {
+  std::vector<float> tolerance_m(cells);
+  const auto squared_m2 = static_cast<float>(max_error_m * max_error_m);
+  for (std::size_t i = 0; i < sweep.cell_of_point.size(); ++i) {
+    if (sweep.cell_of_point[i] < 0) continue;
+    const float deviation_m = sweep.deviation_m[i];
+    tolerance_m[static_cast<std::size_t>(sweep.cell_of_point[i])] =
+        std::sqrt(std::max(0.0F, squared_m2 - deviation_m * deviation_m));
+  }
+  return tolerance_m;
+}
+
+void put_quantiser(ByteWriter& writer, const RangeQuantiser& quantiser) {
+  writer.put(quantiser.step_m);
+  writer.put(static_cast<std::uint8_t>(quantiser.on_lattice() ? 1 : 0));
+}
+
+}  // namespace
+
+EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud& cloud, GriddedSweep sweep,
+                               SweepCells sweep_cells, std::span<const std::uint32_t> bursts,
+                               const Prediction* prediction, ByteWriter& writer,
+                               FrameStatistics& statistics) {
+  const auto& [model, max_error_m, effort, threads, plane_stage, warp_memory] = setting;
+  auto& [quantiser, coding, point_of_cell, image] = sweep_cells;
+
+  // Predict and code.
+  ByteWriter image_bytes;
+  std::optional<Prediction> rounded;
+  if (prediction != nullptr) {
+    put_relative_pose(image_bytes, prediction->T_ref_cur);
+    statistics.grid_bits += bits_of(image_bytes.size());
+    rounded.emplace(Prediction{prediction->reference, prediction->planes, *quantised(prediction->T_ref_cur)});
+  }
+  PlaneSection planes;
+  if (plane_stage != PlaneStage::none) {
+    const auto earlier = earlier_planes(rounded);
+    const GridImage tolerance =
+        coding.image_of(range_tolerances_m(sweep, coding.rows() * coding.columns(), max_error_m), threads);
+    planes = encode_planes({model, sweep.grid, coding, max_error_m, threads, plane_stage},
+                           earlier ? &*earlier : nullptr, image, tolerance, image_bytes, statistics);
+  }
+  auto states = encode_image({model, sweep.grid, quantiser, effort, threads, warp_memory, planes.range_m},
+                             rounded ? &*rounded : nullptr, image, image_bytes, statistics);
+
+  // The points as the decoder will have them, in its sequence.
+  const auto range_of_cell_m = coding.ranges_of_cells(image, threads);
+  const auto occupied = occupied_cells(range_of_cell_m);
+  auto cells = cells_of_points(sweep);
+  const auto moves = encode_moves(settle_order(model, occupied, range_of_cell_m, cells, sweep, threads));
+  const bool order_kept = sweep.grid.order.kind != OrderKind::none;
+  if (!order_kept) cells = cells_in_order(occupied, range_of_cell_m, model, sweep.grid, threads);
+  sweep.grid.order.in_bursts = !bursts.empty() && order_kept;
+
+  const auto grid_bytes = encode_sweep_grid(model, sweep.grid);
+  put_section(writer, grid_bytes);
+  put_quantiser(writer, quantiser);
+  writer.put(image_bytes.bytes());
+
+  const auto corrections =
+      find_corrections(RayTable(model, sweep.grid), cloud, range_of_cell_m,
+                       {point_of_cell.get(), range_of_cell_m.size()}, cells, max_error_m, threads);
+
+  EncodedGeometry encoded;
+  std::vector<Stray> strays;
+  std::vector<std::uint32_t> stray_indices;
+  if (order_kept) {
+    encoded.output_order.resize(cloud.size());
+    std::iota(encoded.output_order.begin(), encoded.output_order.end(), 0u);
+  } else {
+    for (const std::uint32_t cell : cells) encoded.output_order.push_back(point_of_cell[cell]);
+  }
+  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+    if (sweep.cell_of_point[i] >= 0) continue;
+    const auto index = order_kept ? i : static_cast<std::uint32_t>(encoded.output_order.size());
+    if (!order_kept) encoded.output_order.push_back(i);
+    strays.push_back({index, cloud.positions[i]});
+    stray_indices.push_back(index);
+  }
+  const auto correction_bytes = encode_corrections(corrections);
+  const auto stray_bytes = strays.empty() ? std::vector<std::uint8_t>{} : encode_strays(strays, max_error_m);
+  put_section(writer, moves);
+  put_section(writer, correction_bytes);
+  put_section(writer, stray_bytes);
+
+  statistics.grid_bits += bits_of(grid_bytes.size());
+  statistics.order_bits += bits_of(moves.size());
+  statistics.correction_bits += bits_of(correction_bytes.size());
+  statistics.stray_bits += bits_of(stray_bytes.size());
+  statistics.corrected_points += static_cast<std::uint32_t>(corrections.size());
+  statistics.stray_points += static_cast<std::uint32_t>(strays.size());
+  encoded.geometry = merged(coding, cells, range_of_cell_m, stray_indices, threads);
+  encoded.geometry.order_kept = order_kept;
+  if (sweep.grid.order.in_bursts) {
+    const auto burst_bytes = encode_bursts(bursts, firing_places(model, sweep.grid, cells, encoded.geometry));
+    put_section(writer, burst_bytes);
+    statistics.order_bits += bits_of(burst_bytes.size());
+    encoded.geometry.bursts.assign(bursts.begin(), bursts.end());
+  }
+  if (prediction != nullptr) draw_together(warp_memory.image, quantiser.step_m, image);
+  encoded.image = {{std::move(sweep.grid), std::move(image), std::move(states)}, std::move(planes.tiles)};
+  return encoded;
+}
+
+}  // namespace pointreel

@@ -1,0 +1,29 @@
+// The cells of a sweep, before they are predicted and coded.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "pointreel/point_cloud.h"
+#include "predict/coding_grid.h"
+#include "predict/grid_image.h"
+#include "predict/range_quantiser.h"
+#include "sensor/sensor_model.h"
+#include "sensor/sweep_grid.h"
+
+namespace pointreel {
+
+struct SweepCells {
+  RangeQuantiser quantiser;
+  CodingGrid coding;
+  std::unique_ptr<std::uint32_t[]> point_of_cell;  // of the sensor grid; nothing where a cell is empty
+  GridImage image;                                 // as measured
+};
+
+// Takes points off the grid that float32 ranges and positions cannot hold within the bound.
+void drop_unreachable(const PointCloud& cloud, double max_error_m, GriddedSweep& sweep);
+
+SweepCells cells_of_sweep(const SensorModel& model, const GriddedSweep& sweep, double max_error_m,
+                          int threads);
+
+}  // namespace pointreel
