@@ -194,7 +194,7 @@ GriddedSweep project(const SensorModel& model, const PointCloud& cloud, const Gr
     sweep.grid.motion = find_twist(model, cloud, rows, previous != nullptr ? previous->motion : std::nullopt);
     polar = polar_points(cloud, sweep.grid.motion, options.threads);
   }
-  settle_rows(model, polar, rows);
+  settle_rows(model, polar, options.threads, rows);
   auto azimuths = column_azimuths(model, polar, rows, options.threads);
   std::optional<bool> firing_descending;
   if (auto firing = find_firing_order(azimuths, rows)) {

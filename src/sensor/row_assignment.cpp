@@ -70,34 +70,68 @@ std::vector<std::int16_t> rows_by_ring(const SensorModel& model, const std::vect
   return rows;
 }
 
-// The row of a run: the one that its points lie neither above nor below, in the median (compensated sweeps
-// are bent both ways, so medians still tell).
-std::int16_t row_of_run(const SensorModel& model, const PolarPoints& polar, std::size_t first,
-                        std::size_t last, std::size_t least_row, std::size_t end_row, double& misfit) {
-  constexpr std::size_t kSamples = 48;
-  std::array<std::size_t, kSamples> samples{};
-  std::size_t count = 0;
-  for (std::size_t s = 0; s < kSamples; ++s) {
-    const std::size_t i = first + (last - first) * s / kSamples;
-    if (polar.has_ray(i)) samples[count++] = i;
+// How far the points of a run are off a row, in the median (compensated sweeps are bent both ways, so medians
+// still tell).
+class RunMisfit {
+ public:
+  RunMisfit(const SensorModel& model, const PolarPoints& polar, std::size_t first, std::size_t last)
+      : model_(model), polar_(polar) {
+    for (std::size_t s = 0; s < kSamples; ++s) {
+      const std::size_t i = first + (last - first) * s / kSamples;
+      if (polar.has_ray(i)) samples_[count_++] = i;
+    }
   }
-  std::int16_t best = kNoRow;
-  misfit = std::numeric_limits<double>::infinity();
-  if (count == 0) return best;
-  std::array<float, kSamples> elevations{};
-  for (std::size_t row = least_row; row < end_row; ++row) {
-    for (std::size_t s = 0; s < count; ++s) {
-      const std::size_t i = samples[s];
-      elevations[s] = static_cast<float>(height_above_row_m(model.rows[row], polar.rho_m[i], polar.z_m[i]) /
-                                         polar.rho_m[i]);
+
+  double operator()(std::size_t row) const {
+    if (count_ == 0) return std::numeric_limits<double>::infinity();
+    std::array<float, kSamples> elevations{};
+    for (std::size_t s = 0; s < count_; ++s) {
+      const std::size_t i = samples_[s];
+      elevations[s] = static_cast<float>(
+          height_above_row_m(model_.rows[row], polar_.rho_m[i], polar_.z_m[i]) / polar_.rho_m[i]);
     }
-    const auto middle = elevations.begin() + static_cast<std::ptrdiff_t>(count / 2);
-    std::nth_element(elevations.begin(), middle, elevations.begin() + static_cast<std::ptrdiff_t>(count));
-    const double distance = std::fabs(static_cast<double>(*middle));
-    if (distance < misfit) {
-      misfit = distance;
-      best = static_cast<std::int16_t>(row);
+    const auto middle = elevations.begin() + static_cast<std::ptrdiff_t>(count_ / 2);
+    std::nth_element(elevations.begin(), middle, elevations.begin() + static_cast<std::ptrdiff_t>(count_));
+    return std::fabs(static_cast<double>(*middle));
+  }
+
+ private:
+  static constexpr std::size_t kSamples = 48;
+
+  const SensorModel& model_;
+  const PolarPoints& polar_;
+  std::array<std::size_t, kSamples> samples_{};
+  std::size_t count_ = 0;
+};
+
+// The row that a run's points lie neither above nor below, and how far off it is.
+struct FoundRow {
+  std::size_t row;
+  double misfit;
+};
+
+// From a row that may be it to those beside it, as long as they fit better.
+FoundRow nearest_to_run(const RunMisfit& misfit_of, std::size_t first_guess, std::size_t rows) {
+  FoundRow best{first_guess, misfit_of(first_guess)};
+  for (const bool up : {true, false}) {
+    const std::size_t from = best.row;
+    for (;;) {
+      if (up ? best.row + 1 >= rows : best.row == 0) break;
+      const std::size_t next = up ? best.row + 1 : best.row - 1;
+      const double misfit = misfit_of(next);
+      if (!(misfit < best.misfit)) break;
+      best = {next, misfit};
     }
+    if (best.row != from) break;
+  }
+  return best;
+}
+
+FoundRow best_of_all(const RunMisfit& misfit_of, std::size_t rows) {
+  FoundRow best{0, misfit_of(0)};
+  for (std::size_t row = 1; row < rows; ++row) {
+    const double misfit = misfit_of(row);
+    if (misfit < best.misfit) best = {row, misfit};
   }
   return best;
 }
@@ -115,33 +149,29 @@ double run_tolerance(const SensorModel& model) {
 // Runs may be missing, cut in two or made of a few points that jitter around the seam: each finds its own
 // row, short ones point by point. Empty when the cloud is not made of runs.
 std::vector<std::int16_t> rows_by_runs(const SensorModel& model, const PolarPoints& polar,
-                                       const NearestRow& nearest) {
+                                       const NearestRow& nearest, int threads) {
   constexpr std::size_t kShortRun = 24;
-  const RowRuns runs = split_into_runs(polar);
+  const RowRuns runs = split_into_runs(polar, threads);
   if (runs.runs() > 4 * model.rows.size() + 16) return {};
   if (runs.runs() * 4 < model.rows.size()) return {};  // whole turns of all rows: column by column
   const double tolerance = run_tolerance(model);
   std::vector<std::int16_t> rows(polar.size(), kNoRow);
-  constexpr std::size_t kAhead = 5;
   const std::size_t count = model.rows.size();
   std::size_t fitting = 0;
   std::size_t row_before = 0;
   for (std::size_t run = 0; run < runs.runs(); ++run) {
     const std::size_t first = runs.first[run];
     const std::size_t last = runs.end(run, polar.size());
-    double misfit = 0;
-    std::int16_t row = kNoRow;
+    FoundRow found{0, std::numeric_limits<double>::infinity()};
     if (last - first > kShortRun) {
-      // Most often one of the next rows.
-      const std::size_t near_end = std::min(count, row_before + kAhead);
-      row =
-          row_of_run(model, polar, first, last, row_before - std::min(row_before, kAhead), near_end, misfit);
-      if (misfit >= tolerance) row = row_of_run(model, polar, first, last, 0, count, misfit);
+      const RunMisfit misfit_of(model, polar, first, last);
+      found = nearest_to_run(misfit_of, std::min(row_before + 1, count - 1), count);
+      if (found.misfit >= tolerance) found = best_of_all(misfit_of, count);
     }
-    const bool fits = row != kNoRow && misfit < tolerance;
-    if (fits) row_before = static_cast<std::size_t>(row);
-    if (fits) fitting += last - first;
-    if (fits) {
+    if (found.misfit < tolerance) {
+      row_before = found.row;
+      fitting += last - first;
+      const auto row = static_cast<std::int16_t>(found.row);
       for (std::size_t i = first; i < last; ++i) rows[i] = polar.rho_m[i] > 0 ? row : kNoRow;
     } else {
       for (std::size_t i = first; i < last; ++i) {
@@ -186,7 +216,7 @@ std::vector<std::int16_t> assign_rows(const SensorModel& model, const PointCloud
     const auto rings = ring_values(cloud);
     if (!rings.empty()) return rows_by_ring(model, rings, polar);
   }
-  auto rows = rows_by_runs(model, polar, NearestRow(model));
+  auto rows = rows_by_runs(model, polar, NearestRow(model), threads);
   if (!rows.empty() || polar.size() == 0) return rows;
   return nearest_rows(model, polar, threads);
 }
@@ -203,14 +233,16 @@ std::vector<std::int16_t> nearest_rows(const SensorModel& model, const PolarPoin
   return rows;
 }
 
-void settle_rows(const SensorModel& model, const PolarPoints& polar, std::vector<std::int16_t>& rows) {
+void settle_rows(const SensorModel& model, const PolarPoints& polar, int threads,
+                 std::vector<std::int16_t>& rows) {
   constexpr double kFarM = 0.02;
   constexpr std::size_t kBlock = 256;
+  static_assert(kPiecePoints % kBlock == 0);
   if (!model.ring_of_row.empty() || model.rows.empty()) return;
   const NearestRow nearest(model);
-  std::array<float, kBlock> slope, offset_m;
-  for (std::size_t first = 0; first < rows.size(); first += kBlock) {
-    const std::size_t count = std::min(kBlock, rows.size() - first);
+  const auto settle_block = [&](std::size_t first, std::size_t last) {
+    std::array<float, kBlock> slope, offset_m;
+    const std::size_t count = last - first;
     for (std::size_t k = 0; k < count; ++k) {
       const RowModel& row = model.rows[rows[first + k] < 0 ? 0 : static_cast<std::size_t>(rows[first + k])];
       slope[k] = static_cast<float>(row.slope);
@@ -222,14 +254,19 @@ void settle_rows(const SensorModel& model, const PolarPoints& polar, std::vector
     int far = 0;
     for (std::size_t k = 0; k < count; ++k)
       far |= std::fabs(z_m[k] - slope[k] * rho_m[k] - offset_m[k]) > static_cast<float>(kFarM) ? 1 : 0;
-    if (far == 0) continue;
-    for (std::size_t i = first; i < first + count; ++i) {
+    if (far == 0) return;
+    for (std::size_t i = first; i < last; ++i) {
       if (rows[i] < 0 || !polar.has_ray(i)) continue;
       const RowModel& row = model.rows[static_cast<std::size_t>(rows[i])];
       if (std::fabs(height_above_row_m(row, polar.rho_m[i], polar.z_m[i])) > kFarM)
         rows[i] = nearest(polar.rho_m[i], polar.z_m[i]);
     }
-  }
+  };
+  parallel_for((rows.size() + kPiecePoints - 1) / kPiecePoints, threads, [&](std::size_t piece) {
+    const std::size_t last = std::min(rows.size(), (piece + 1) * kPiecePoints);
+    for (std::size_t first = piece * kPiecePoints; first < last; first += kBlock)
+      settle_block(first, std::min(last, first + kBlock));
+  });
 }
 
 }  // namespace pointreel

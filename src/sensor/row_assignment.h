@@ -27,7 +27,8 @@ std::vector<std::int16_t> nearest_rows(const SensorModel& model, const PolarPoin
 
 // Moves points that miss their row by far to the nearest one, where no ring field tells: around the seam a
 // run's ends may belong to its neighbours, and a cloud may have its seam elsewhere.
-void settle_rows(const SensorModel& model, const PolarPoints& polar, std::vector<std::int16_t>& rows);
+void settle_rows(const SensorModel& model, const PolarPoints& polar, int threads,
+                 std::vector<std::int16_t>& rows);
 
 // Distance of a point from the cone that row's laser sweeps, across the ray; positive above.
 inline double height_above_row_m(const RowModel& row, double rho_m, double z_m) {

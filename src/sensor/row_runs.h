@@ -19,6 +19,6 @@ struct RowRuns {
 
 // A new run starts where the azimuth jumps back by more than 1 rad; it is taken in [0, 2 pi) or in [-pi, pi),
 // whichever makes the straighter runs.
-RowRuns split_into_runs(const PolarPoints& polar);
+RowRuns split_into_runs(const PolarPoints& polar, int threads = 1);
 
 }  // namespace pointreel

@@ -54,7 +54,7 @@ class ModelFit {
       for (const std::uint32_t i : evidence.points[g])
         row_of_point_[i] = static_cast<std::int16_t>(model_.rows.size() - 1);
     }
-    settle_rows(model_, polar, row_of_point_);
+    settle_rows(model_, polar, threads, row_of_point_);
     points_.resize(model_.rows.size());
     for (std::size_t i = 0; i < polar.size(); ++i) {
       if (row_of_point_[i] >= 0)
