@@ -78,8 +78,8 @@ std::vector<BandState> encode_image(const ImageSetting& setting, const Predictio
   const BandSetting band_setting{
       kind, setting.quantiser, reference_image(setting, prediction), {}, setting.known_range_m};
   const bool goes_on = prediction != nullptr && !prediction->reference.states.empty();
-  const auto bands =
-      goes_on ? bands_of(prediction->reference.states) : choose_bands(image, setting.quantiser.step_m);
+  const auto bands = goes_on ? bands_of(prediction->reference.states)
+                             : choose_bands(image, setting.quantiser.step_m, setting.threads);
   put_bands(writer, bands);
   auto states = starting_states(kind, setting.quantiser.step_m, bands, prediction);
   std::vector<CodedBand> coded(bands.size());

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/parallel.h"
 #include "predict/wavefront.h"
 
 namespace pointreel {
@@ -36,15 +37,18 @@ double cost_of_row(const GridImage& image, int row, float step_m) {
 
 }  // namespace
 
-std::vector<Band> choose_bands(const GridImage& image, float step_m) {
+std::vector<Band> choose_bands(const GridImage& image, float step_m, int threads) {
   constexpr double kCellsPerBand = 70'000;
   constexpr int kRows = Wavefront::kRows;
   const int blocks = (image.rows + kRows - 1) / kRows;
   const double cells = static_cast<double>(image.rows) * image.columns;
   const int count = std::clamp(static_cast<int>(cells / kCellsPerBand + 0.5), 1, std::max(1, blocks));
   std::vector<double> cost_until(static_cast<std::size_t>(blocks) + 1);  // of the blocks before each
-  for (int row = 0; row < image.rows && count > 1; ++row)
-    cost_until[static_cast<std::size_t>(row / kRows) + 1] += cost_of_row(image, row, step_m);
+  parallel_for(count > 1 ? static_cast<std::size_t>(blocks) : 0, threads, [&](std::size_t block) {
+    const int first_row = static_cast<int>(block) * kRows;
+    for (int row = first_row; row < std::min(image.rows, first_row + kRows); ++row)
+      cost_until[block + 1] += cost_of_row(image, row, step_m);
+  });
   for (std::size_t block = 1; block < cost_until.size(); ++block) cost_until[block] += cost_until[block - 1];
 
   std::vector<Band> bands;

@@ -15,6 +15,6 @@ struct Band {
 
 // Bands of about 70,000 cells, fewer of which learn too little, and more leave threads idle; whole blocks of
 // the wavefront, and so divided that each takes about the same time. `step_m`: the quantiser's.
-std::vector<Band> choose_bands(const GridImage& image, float step_m);
+std::vector<Band> choose_bands(const GridImage& image, float step_m, int threads = 1);
 
 }  // namespace pointreel

@@ -131,7 +131,7 @@ std::vector<std::uint32_t> cells_row_by_row(std::span<const std::uint8_t> occupi
     first_of_row[k + 1] = first_of_row[k] + std::accumulate(row.begin(), row.end(), 0u);
   }
   std::vector<std::uint32_t> cells(first_of_row.back());
-  const std::size_t pieces = std::min(rows, static_cast<std::size_t>(std::max(1, threads)));
+  const std::size_t pieces = threads > 1 ? std::min(rows, 4 * static_cast<std::size_t>(threads)) : 1;
   parallel_for(pieces, threads, [&](std::size_t piece) {
     RowWalk walk(occupied, range_m, model, grid);
     for (std::size_t k = piece; k < rows; k += pieces)
