@@ -157,23 +157,12 @@ TEST_P(SensorPlanesOnRealSweeps, EveryPointIsWithinTheBound) {
   paths->resize(std::min(paths->size(), kMostSweeps));
   for (const Effort effort : {Effort::fast, Effort::balanced}) {
     for (const double bound_m : {0.02, 0.1}) {
-      const auto options = sensor_planes(bound_m, effort, 5);
-      auto encoder = Encoder::create(options);
-      auto decoder = decoder_of(options);
       std::uint64_t on_planes = 0, unfit = 0;
-      for (const auto& path : *paths) {
-        SCOPED_TRACE(path.string() + " at " + std::to_string(bound_m));
-        const auto cloud = read_cloud(path);
-        ASSERT_TRUE(cloud) << cloud.error().message;
-        const auto packets = encoder->encode(*cloud);
-        ASSERT_TRUE(packets);
-        const auto decoded = decoder.decode(*packets);
-        ASSERT_TRUE(decoded[0]) << decoded[0].error().message;
-        check_mixture_sweep(header_of(options), *cloud, packets->front(), *decoded[0]);
-        const FrameStatistics& statistics = packets->front().statistics;
-        on_planes += statistics.spatial_cells + statistics.temporal_cells;
-        unfit += statistics.unfit_cells;
-      }
+      check_mixture_files(*paths, sensor_planes(bound_m, effort, 5),
+                          [&](const Packet& packet, const DecodedSweep&) {
+                            on_planes += packet.statistics.spatial_cells + packet.statistics.temporal_cells;
+                            unfit += packet.statistics.unfit_cells;
+                          });
       if (effort == Effort::fast && bound_m == 0.1) {
         EXPECT_GT(static_cast<double>(on_planes), 0.55 * static_cast<double>(on_planes + unfit));
       }
