@@ -87,15 +87,21 @@ TEST_F(SensorPlanes, PlanesComeWithoutThePointsAndHoldThem) {
     EXPECT_EQ(planes[i]->planes.size(), packets[i].statistics.runs);
     EXPECT_GT(planes[i]->planes.size(), 5u);
     std::map<std::uint32_t, std::uint32_t> tiles, cells;
+    std::uint32_t all_cells = 0;
     for (const PlaneTile& tile : planes[i]->tiles) {
       ASSERT_LT(tile.plane, planes[i]->planes.size());
       ++tiles[tile.plane];
       cells[tile.plane] += tile.cells;
+      all_cells += tile.cells;
       const SweepPlane& plane = planes[i]->planes[tile.plane];
       const Eigen::Vector3d center_m = tile.center_m.cast<double>();
       EXPECT_NEAR(plane.normal.dot(center_m), plane.distance_m, 1e-3);
       EXPECT_LE(std::fabs(plane.long_axis.dot(center_m - plane.center_m)), plane.length_m + 1e-3);
     }
+    const FrameStatistics& statistics = packets[i].statistics;
+    const std::uint32_t points = statistics.spatial_cells + statistics.temporal_cells;
+    EXPECT_GE(all_cells, points) << "cells with a return are among those with or without one";
+    EXPECT_LT(2 * all_cells, 3 * points);
     for (std::uint32_t p = 0; p < planes[i]->planes.size(); ++p) {
       const SweepPlane& plane = planes[i]->planes[p];
       EXPECT_EQ(plane.tiles, tiles[p]);
