@@ -79,7 +79,6 @@ void train_all(const std::vector<TrainingDrive>& drives) {
         means.mask.print(fmt::format("k{}Mask", name));
     }
   }
-  fmt::print("// clang-format on\n\n");
   for (const auto& [name, kind] : kinds) {
     fmt::print("constexpr std::span<const std::int8_t> k{}[] = {{", name);
     for (std::size_t set = 0; set < kPriorSteps.size(); ++set)
@@ -87,7 +86,8 @@ void train_all(const std::vector<TrainingDrive>& drives) {
     fmt::print("}};\n");
   }
   fmt::print(
-      "\n}}  // namespace\n\n"
+      "// clang-format on\n\n"
+      "}}  // namespace\n\n"
       "std::span<const std::int8_t> hit_mask_priors(const CodingKind& kind) {{\n"
       "  if (kind.effort == Effort::fast) return kFastMask;\n"
       "  return kind.predicted ? std::span<const std::int8_t>(kPredictedMask) : kKeyMask;\n}}\n\n"

@@ -198,6 +198,7 @@ struct DecodedSweep {
   PointCloud cloud;                      // the sweep's own sensor coordinates
   Pose T_key_sensor = Pose::Identity();  // uniform grid: the motion that was undone (predicted frames)
   bool order_kept = false;               // the points come in the order of the input
+  bool temporal = false;                 // sensor's grid: predicted from the ranges of the sweep before
   std::uint64_t field_bytes = 0;         // of the packet's payload: what the fields took
 };
 

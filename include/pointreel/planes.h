@@ -14,7 +14,9 @@
 
 namespace pointreel {
 
-// A piece of a plane: the cells of the sensor's grid that lie on it come in tiles.
+// A piece of a plane: the cells of the sensor's grid that lie on it come in tiles. A cell's return, if it has
+// one, is where its ray meets the plane. Which cells have one is not known without decoding the ranges: the
+// format's hit mask is coded by what they are (docs/FORMAT.md, 8.1). So there are cells here, but no points.
 struct PlaneTile {
   std::uint32_t plane = 0;            // index in SweepPlanes::planes
   std::uint32_t row = 0, column = 0;  // its first cell, in the image of the format's section 7.3
@@ -27,6 +29,7 @@ struct SweepPlane {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // of unit length, away from the sensor
   double distance_m = 0;                             // from the sensor
   bool reused = false;                               // the normal was that of a plane of the sweep before
+  // No more points lie on it than it has cells.
   std::uint32_t tiles = 0, cells = 0;
   Eigen::Vector3d center_m = Eigen::Vector3d::Zero();   // mean of its tiles' centers
   Eigen::Vector3d long_axis = Eigen::Vector3d::Zero();  // both of unit length, along the plane

@@ -119,6 +119,7 @@ class MixtureDecoder final : public Decoder::Implementation {
     sweep.cloud.fields = *std::move(fields);
     if (!geometry->geometry.bursts.empty()) redo_sort(geometry->geometry.bursts, sweep.cloud);
     sweep.order_kept = geometry->geometry.order_kept;
+    sweep.temporal = coding == SweepCoding::predicted;
     sweep.field_bytes = field_bytes;
     return sweep;
   }

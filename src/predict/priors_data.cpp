@@ -8785,12 +8785,11 @@ constexpr std::int8_t kPredictedMax6[] = {
     5, 5, 24, -24, 1, -1, 6, 1, 4, 4, 27, -8, 0, 0, 5, 0, 4, 1, 32, 0, 0, 0, 0, 0, 0, 0, 32, 0, 0, 0, 0, 0, 0,
     0, 32, 0, 0, 0, 0, 0, 0, 0,
 };
-// clang-format on
-
 constexpr std::span<const std::int8_t> kFast[] = {kFast0, kFast1, kFast2, kFast3, kFast4, kFast5, kFast6};
 constexpr std::span<const std::int8_t> kKey[] = {kKey0, kKey1, kKey2, kKey3, kKey4, kKey5, kKey6};
 constexpr std::span<const std::int8_t> kPredicted[] = {kPredicted0, kPredicted1, kPredicted2, kPredicted3, kPredicted4, kPredicted5, kPredicted6};
 constexpr std::span<const std::int8_t> kPredictedMax[] = {kPredictedMax0, kPredictedMax1, kPredictedMax2, kPredictedMax3, kPredictedMax4, kPredictedMax5, kPredictedMax6};
+// clang-format on
 
 }  // namespace
 

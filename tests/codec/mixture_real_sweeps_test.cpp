@@ -28,24 +28,13 @@ TEST_P(MixtureRealSweeps, KeepEveryPromise) {
   const auto paths = expand_inputs(std::vector<std::string>{(*data / GetParam().folder).string()});
   ASSERT_TRUE(paths) << paths.error().message;
   for (const double bound_m : {0.001, 0.02, 0.2}) {
-    const auto options = mixture_options(bound_m);
-    auto encoder = Encoder::create(options);
-    auto decoder = decoder_of(options);
     double bits = 0, points = 0;
-    for (const auto& path : *paths) {
-      SCOPED_TRACE(path.string() + " at " + std::to_string(bound_m));
-      const auto cloud = read_cloud(path);
-      ASSERT_TRUE(cloud) << cloud.error().message;
-      const auto packets = encoder->encode(*cloud);
-      ASSERT_TRUE(packets);
-      const auto decoded = decoder.decode(*packets);
-      ASSERT_TRUE(decoded[0]) << decoded[0].error().message;
-      EXPECT_EQ(decoded[0]->order_kept, GetParam().order_kept);
-      check_mixture_sweep(header_of(options), *cloud, packets->front(), *decoded[0]);
-      bits += 8.0 * static_cast<double>(serialize(packets->front()).size()) -
-              packets->front().statistics.field_bits;
-      points += static_cast<double>(cloud->size());
-    }
+    check_mixture_files(
+        *paths, mixture_options(bound_m), [&](const Packet& packet, const DecodedSweep& decoded) {
+          EXPECT_EQ(decoded.order_kept, GetParam().order_kept) << "frame " << decoded.frame;
+          bits += 8.0 * static_cast<double>(serialize(packet).size()) - packet.statistics.field_bits;
+          points += packet.points_in;
+        });
     if (bound_m == 0.02) {
       EXPECT_LT(bits / points, GetParam().most_bits_per_point);
     }

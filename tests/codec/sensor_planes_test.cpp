@@ -87,15 +87,21 @@ TEST_F(SensorPlanes, PlanesComeWithoutThePointsAndHoldThem) {
     EXPECT_EQ(planes[i]->planes.size(), packets[i].statistics.runs);
     EXPECT_GT(planes[i]->planes.size(), 5u);
     std::map<std::uint32_t, std::uint32_t> tiles, cells;
+    std::uint32_t all_cells = 0;
     for (const PlaneTile& tile : planes[i]->tiles) {
       ASSERT_LT(tile.plane, planes[i]->planes.size());
       ++tiles[tile.plane];
       cells[tile.plane] += tile.cells;
+      all_cells += tile.cells;
       const SweepPlane& plane = planes[i]->planes[tile.plane];
       const Eigen::Vector3d center_m = tile.center_m.cast<double>();
       EXPECT_NEAR(plane.normal.dot(center_m), plane.distance_m, 1e-3);
       EXPECT_LE(std::fabs(plane.long_axis.dot(center_m - plane.center_m)), plane.length_m + 1e-3);
     }
+    const FrameStatistics& statistics = packets[i].statistics;
+    const std::uint32_t points = statistics.spatial_cells + statistics.temporal_cells;
+    EXPECT_GE(all_cells, points) << "cells with a return are among those with or without one";
+    EXPECT_LT(2 * all_cells, 3 * points);
     for (std::uint32_t p = 0; p < planes[i]->planes.size(); ++p) {
       const SweepPlane& plane = planes[i]->planes[p];
       EXPECT_EQ(plane.tiles, tiles[p]);
@@ -157,23 +163,12 @@ TEST_P(SensorPlanesOnRealSweeps, EveryPointIsWithinTheBound) {
   paths->resize(std::min(paths->size(), kMostSweeps));
   for (const Effort effort : {Effort::fast, Effort::balanced}) {
     for (const double bound_m : {0.02, 0.1}) {
-      const auto options = sensor_planes(bound_m, effort, 5);
-      auto encoder = Encoder::create(options);
-      auto decoder = decoder_of(options);
       std::uint64_t on_planes = 0, unfit = 0;
-      for (const auto& path : *paths) {
-        SCOPED_TRACE(path.string() + " at " + std::to_string(bound_m));
-        const auto cloud = read_cloud(path);
-        ASSERT_TRUE(cloud) << cloud.error().message;
-        const auto packets = encoder->encode(*cloud);
-        ASSERT_TRUE(packets);
-        const auto decoded = decoder.decode(*packets);
-        ASSERT_TRUE(decoded[0]) << decoded[0].error().message;
-        check_mixture_sweep(header_of(options), *cloud, packets->front(), *decoded[0]);
-        const FrameStatistics& statistics = packets->front().statistics;
-        on_planes += statistics.spatial_cells + statistics.temporal_cells;
-        unfit += statistics.unfit_cells;
-      }
+      check_mixture_files(*paths, sensor_planes(bound_m, effort, 5),
+                          [&](const Packet& packet, const DecodedSweep&) {
+                            on_planes += packet.statistics.spatial_cells + packet.statistics.temporal_cells;
+                            unfit += packet.statistics.unfit_cells;
+                          });
       if (effort == Effort::fast && bound_m == 0.1) {
         EXPECT_GT(static_cast<double>(on_planes), 0.55 * static_cast<double>(on_planes + unfit));
       }

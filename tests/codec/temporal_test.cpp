@@ -53,6 +53,14 @@ TEST_F(Temporal, PredictedSweepsNameTheOneBefore) {
   }
 }
 
+TEST_F(Temporal, DecodedSweepsSayWhetherTheOneBeforeWasUsed) {
+  for (const bool temporal : {true, false}) {
+    const auto options = options_with(Effort::balanced, 2, temporal);
+    for (const auto& sweep : decoder_of(options).decode(encode_all(sweeps_, options)))
+      EXPECT_EQ(sweep->temporal, temporal && sweep->frame % 2 == 1) << "frame " << sweep->frame;
+  }
+}
+
 TEST_F(Temporal, TheSweepBeforeSavesBytesAndMoreWorkSavesMore) {
   const auto balanced = bytes_of(encode_all(sweeps_, options_with(Effort::balanced)));
   EXPECT_LT(balanced, bytes_of(encode_all(sweeps_, options_with(Effort::balanced, 10, false))));

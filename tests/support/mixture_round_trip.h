@@ -4,8 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <span>
 #include <vector>
 
+#include "pointreel/io.h"
 #include "support/codec_round_trip.h"
 #include "support/distance.h"
 
@@ -70,6 +74,26 @@ inline std::vector<DecodedSweep> check_mixture_round_trip(const std::vector<Poin
     result.push_back(*std::move(decoded[i]));
   }
   return result;
+}
+
+// The same for files, one in memory at a time; each sweep that kept the promises is shown to `see`.
+inline void check_mixture_files(
+    std::span<const std::filesystem::path> paths, const EncoderOptions& options,
+    const std::function<void(const Packet& packet, const DecodedSweep& decoded)>& see) {
+  auto encoder = Encoder::create(options);
+  ASSERT_TRUE(encoder) << encoder.error().message;
+  auto decoder = decoder_of(options);
+  for (const auto& path : paths) {
+    SCOPED_TRACE(path.string() + " at " + std::to_string(options.mixture.max_error_m));
+    const auto cloud = read_cloud(path);
+    ASSERT_TRUE(cloud) << cloud.error().message;
+    const auto packets = encoder->encode(*cloud);
+    ASSERT_TRUE(packets) << packets.error().message;
+    const auto decoded = decoder.decode(*packets);
+    ASSERT_TRUE(decoded[0]) << decoded[0].error().message;
+    ASSERT_NO_FATAL_FAILURE(check_mixture_sweep(encoder->header(), *cloud, packets->front(), *decoded[0]));
+    see(packets->front(), *decoded[0]);
+  }
 }
 
 }  // namespace pointreel

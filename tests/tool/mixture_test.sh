@@ -91,6 +91,15 @@ says stderr "cut.reel: packet at byte"
 for frame in 0 1 2 3; do same_file "cut/00000$frame.bin" "kitti/00000$frame.bin"; done
 run 3 verify cut.reel drive
 says stderr "1 of the 5 originals are not in it"
+says stdout "4 sweeps"
+# Cut within the first sweep: nothing to claim anything of.
+head -c 2000 drive.reel >first.reel
+run 1 verify first.reel drive
+says stdout "first.reel: no whole sweep in it, nothing was verified"
+says stderr "first.reel: packet at byte 52"
+says stderr "5 of the 5 originals are not in it"
+run 1 verify first.reel drive --json
+json "r['frames'] == 0 and r['bound_held'] is None"
 
 # Efforts, each sweep by itself, and motion from a file.
 for options in "--effort fast" "--effort max" --no-temporal "--motion none" "--poses drive/poses.txt" "--imu drive/imu.csv"; do
@@ -104,6 +113,11 @@ run 0 info fast.reel --json
 json "r['effort'] == 'fast'"
 run 0 encode drive -o apart.reel --no-temporal
 (($(stat -c %s drive.reel) < $(stat -c %s apart.reel))) || fail "the sweep before saved nothing"
+# The encoder that `verify` times does as the one that made the stream.
+for reel in drive:True apart:False fast:False; do
+  run 0 verify "${reel%:*}.reel" drive --json
+  json "r['temporal'] is ${reel#*:}"
+done
 # One sweep out of the middle of a group.
 run 0 decode drive.reel -o all
 run 0 decode drive.reel -o one --frames 3:4

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Method planes on the sensor's grid: encode, info, verify, and the planes themselves.
-source "$(dirname "${BASH_SOURCE[0]}")/support.sh" "$@"
+# shellcheck source-path=SCRIPTDIR
+source "$(dirname "$0")/support.sh" "$@"
 
 run 0 simulate -o drive --frames 5 --sensor vlp-16
 run 0 encode drive -o drive.reel --method planes --max-error 10cm

@@ -48,7 +48,9 @@ class Verifier {
       if (!sweep) return sweep.error();
     }
     std::sort(sweeps.begin(), sweeps.end(), [](const auto& a, const auto& b) { return a->frame < b->frame; });
-    if (const auto ready = ready_encoder(); !ready) return ready.error();
+    const bool temporal =
+        std::any_of(sweeps.begin(), sweeps.end(), [](const auto& sweep) { return sweep->temporal; });
+    if (const auto ready = ready_encoder(temporal); !ready) return ready.error();
     for (const auto& sweep : sweeps) {
       verification_.decode_ms.push_back(decode_ms);
       if (const auto done = add_sweep(*sweep); !done) return done.error();
@@ -84,22 +86,26 @@ class Verifier {
     verification_.field_bytes += sweep.field_bytes;
     ++verification_.frames;
     keep_fields_of(sweep.cloud, *original);
+    std::optional<Pose> pose;
+    if (!header_.on_sensor_grid()) pose = sweep.T_key_sensor;
     const Stopwatch start;
-    if (const auto packets = encoder_->encode(*std::move(original), sweep.T_key_sensor); !packets)
-      return packets.error();
+    if (const auto packets = encoder_->encode(*std::move(original), pose); !packets) return packets.error();
     encode_ms_.push_back(start.elapsed_ms());
     return {};
   }
 
-  // On the uniform grid poses are known within a group only, so it starts over with each batch of groups; the
-  // sensor is looked for once.
-  Result<void> ready_encoder() {
-    if (encoder_ && header_.on_sensor_grid()) return {};
+  // On the uniform grid poses are known within a group only, so it starts over with each batch of groups; on
+  // the sensor's grid it goes on, which saves looking for the sensor. The header does not say whether sweeps
+  // are predicted from the one before: the first batch with one that is does, as a rule the first of all.
+  Result<void> ready_encoder(bool temporal) {
+    if (encoder_ && header_.on_sensor_grid() && (verification_.temporal || !temporal)) return {};
+    verification_.temporal = temporal;
     EncoderOptions options;
     options.method = header_.method;
     options.mixture.max_error_m = header_.max_error_m;
     options.mixture.group = header_.group;
     options.mixture.effort = header_.effort;
+    options.mixture.temporal = temporal;
     options.planes = header_.planes;
     auto encoder = Encoder::create(options, Runtime{threads_});
     if (!encoder) return encoder.error();
@@ -169,7 +175,7 @@ int run(const VerifyArguments& arguments) {
     print_error({ErrorCode::truncated, fmt::format("{}: {} of the {} originals are not in it", arguments.reel,
                                                    verification.frames_missing, originals->size())});
   }
-  if (!bound_held(verification, reader.header())) return kFailed;
+  if (!bound_held(verification, reader.header()).value_or(false)) return kFailed;
   return reader.fault() || verification.frames_missing > 0 ? kDataLoss : kDone;
 }
 

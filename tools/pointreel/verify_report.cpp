@@ -86,7 +86,8 @@ void print_sensor_grid(const Verification& verification) {
 
 }  // namespace
 
-bool bound_held(const Verification& verification, const StreamHeader& header) {
+std::optional<bool> bound_held(const Verification& verification, const StreamHeader& header) {
+  if (verification.frames == 0) return std::nullopt;
   const SweepQuality& quality = verification.quality;
   if (header.on_sensor_grid()) {
     return quality.points_lost == 0 && quality.paired.max_m <= header.bound_m() * (1 + kMeasuringAllowance);
@@ -98,6 +99,7 @@ bool bound_held(const Verification& verification, const StreamHeader& header) {
 void print_json(const Verification& verification, const StreamHeader& header) {
   const SweepQuality& quality = verification.quality;
   const double bpp = geometry_bits_per_point(verification);
+  const auto held = bound_held(verification, header);
   nlohmann::json json = {{"method", header.method == Method::mixture ? "mixture" : "planes"},
                          {"frames", verification.frames},
                          {"frames_missing", verification.frames_missing},
@@ -110,7 +112,7 @@ void print_json(const Verification& verification, const StreamHeader& header) {
                          {"rmse_m", quality.paired.rms_m()},
                          {"range_error", to_json(quality.paired_range)},
                          {"bound_m", header.bound_m()},
-                         {"bound_held", bound_held(verification, header)},
+                         {"bound_held", held ? nlohmann::json(*held) : nlohmann::json()},
                          {"order_preserved", verification.frames_reordered == 0},
                          {"bits_per_point", bpp},
                          {"ratio_xyz32", bpp > 0 ? 96 / bpp : 0},
@@ -119,6 +121,7 @@ void print_json(const Verification& verification, const StreamHeader& header) {
   if (header.on_sensor_grid()) {
     json.update({{"pairing", "every finite point with its own decoded point"},
                  {"bound_kind", "space"},
+                 {"temporal", verification.temporal},
                  {"cross_error", to_json(quality.paired_angular)},
                  {"bits_per_point_with_fields", bits_per_point(verification, verification.bytes)},
                  {"frames_reordered", verification.frames_reordered},
@@ -134,6 +137,11 @@ void print_json(const Verification& verification, const StreamHeader& header) {
 }
 
 void print_table(const Verification& verification, const StreamHeader& header, const std::string& reel) {
+  const auto held = bound_held(verification, header);
+  if (!held) {
+    fmt::print("{}: no whole sweep in it, nothing was verified\n", reel);
+    return;
+  }
   const double bpp = geometry_bits_per_point(verification);
   fmt::print("{}: {} sweeps, {:.3f} bits per point ({:.1f} : 1 against 96-bit x, y, z)", reel,
              verification.frames, bpp, bpp > 0 ? 96 / bpp : 0);
@@ -147,8 +155,7 @@ void print_table(const Verification& verification, const StreamHeader& header, c
   fmt::print("\n  encode {:.1f} ms, decode {:.1f} ms per sweep (medians)\n",
              quantile(verification.encode_ms, 0.5), quantile(verification.decode_ms, 0.5));
   fmt::print("  {} bound {:g} m for {}: {}\n", header.on_sensor_grid() ? "error" : "range", header.bound_m(),
-             header.on_sensor_grid() ? "every point" : "kept points",
-             bound_held(verification, header) ? "held" : "BROKEN");
+             header.on_sensor_grid() ? "every point" : "kept points", *held ? "held" : "BROKEN");
 }
 
 }  // namespace pointreel
