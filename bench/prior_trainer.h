@@ -35,6 +35,19 @@ class PriorMean {
     }
   }
 
+  // Of the rows that have learnt anything.
+  void weights_by_row(const float* weights, std::size_t rows, std::size_t per_row) {
+    for (std::size_t i = 0; i < per_row; ++i) {
+      double sum = 0, seen = 0;
+      for (std::size_t row = 0; row < rows; ++row) {
+        const float value = weights[row * per_row + i];
+        sum += static_cast<double>(value);
+        seen += value != 0 ? 1 : 0;
+      }
+      weight(seen > 0 ? static_cast<float>(sum / seen) : 0);
+    }
+  }
+
   // How much tables differ between sweeps says how much their priors count for: little.
   template <std::size_t kTables>
   void symbols(const SymbolTables<kTables>& tables) {

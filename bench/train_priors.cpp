@@ -46,7 +46,7 @@ Means train(const std::vector<TrainingDrive>& drives, const CodingKind& kind, fl
               visit_range_state(running.ranges, kind, means.ranges);
             }
             means.mask.start_visit();
-            visit_hit_mask_state(running.mask, kind, means.mask);
+            visit_hit_mask_state(running.mask, means.mask);
           }
         } else {
           for (float& range_m : image.range_m) range_m = std::round(range_m / step_m) * step_m;
@@ -75,8 +75,7 @@ void train_all(const std::vector<TrainingDrive>& drives) {
     for (std::size_t set = 0; set < kPriorSteps.size(); ++set) {
       const Means means = train(drives, kind, kPriorSteps[set]);
       means.ranges.print(fmt::format("k{}{}", name, set));
-      if (kPriorSteps[set] == kMaskStepM && kind.effort != Effort::max)
-        means.mask.print(fmt::format("k{}Mask", name));
+      if (kPriorSteps[set] == kMaskStepM) means.mask.print(fmt::format("k{}Mask", name));
     }
   }
   for (const auto& [name, kind] : kinds) {
@@ -90,7 +89,10 @@ void train_all(const std::vector<TrainingDrive>& drives) {
       "}}  // namespace\n\n"
       "std::span<const std::int8_t> hit_mask_priors(const CodingKind& kind) {{\n"
       "  if (kind.effort == Effort::fast) return kFastMask;\n"
-      "  return kind.predicted ? std::span<const std::int8_t>(kPredictedMask) : kKeyMask;\n}}\n\n"
+      "  if (!kind.predicted) return kKeyMask;\n"
+      "  return kind.effort == Effort::max ? std::span<const std::int8_t>(kPredictedMaxMask) : "
+      "kPredictedMask;\n"
+      "}}\n\n"
       "std::span<const std::int8_t> range_priors(const CodingKind& kind, std::size_t set) {{\n"
       "  if (kind.effort == Effort::fast) return kFast[set];\n"
       "  if (!kind.predicted) return kKey[set];\n"

@@ -10,7 +10,6 @@ namespace pointreel {
 // Weights that say nothing, and the mixture's own probability at first.
 inline BandState untrained(const CodingKind& kind, int rows) {
   BandState state{HitMaskState(static_cast<std::size_t>(rows)), {}, {}, {}};
-  for (auto& mixer : state.mask.mixers) mixer.weight.fill(0.25F);
   if (kind.effort == Effort::fast) return state;
   if (has_trust(kind)) {
     state.trust.make();
@@ -23,14 +22,14 @@ inline BandState untrained(const CodingKind& kind, int rows) {
     return state;
   }
   for (auto& at : state.ranges.mixture.classes) {
-    const std::size_t experts = experts_of(kind);
+    const std::size_t experts = mixed_of(kind);
     std::fill_n(at.weight.begin(), experts, 1.F);
     std::fill_n(at.inverse_scale.begin(), experts, 5.F);
     at.per_total_weight = 1 / static_cast<float>(experts);
   }
-  for (auto& mixer : state.ranges.steps.zero_mixers) mixer.weight[0] = 1;
-  for (auto& mixer : state.ranges.steps.sign_mixers) mixer.weight[0] = 1;
-  for (auto& mixer : state.ranges.steps.more_mixers) mixer.weight[0] = 1;
+  state.ranges.steps.zero_weight.fill(1);
+  state.ranges.steps.sign_weight.fill(1);
+  state.ranges.steps.more_weight.fill(1);
   return state;
 }
 

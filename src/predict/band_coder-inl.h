@@ -74,7 +74,7 @@ bool code_band(Coder& mask_coder, Coder& range_coder, const BandSetting& setting
         for (int row = 0; row < kRows; ++row) all = all & (range_of(row) > 0);
         return all;
       };
-      if (kEffort == Effort::fast && end_row - first_row == kRows && mask.are_sure() &&
+      if (kEffort != Effort::max && end_row - first_row == kRows && mask.are_sure() &&
           mask.code_together(mask_coder, !Coder::kDecodes && are_hits())) {
         for (int row = 0; row < kRows; ++row) take_hit(row);
       } else {

@@ -1,6 +1,7 @@
-// Mixing several predictions of one bit: each is stretched to ln(p / (1 - p)), a weighted sum of those is
-// squashed back to a probability, and the weights follow the gradient of the code length. As bit_mixer.h, but
-// in floats: fewer instructions, and + and * in one fixed order still give the same bits everywhere.
+// Predicting a bit from several contexts: in ln(p / (1 - p)), the stretch, what each says is added up, the
+// sum is squashed back to a probability, and what was added follows the gradient of the code length. In
+// floats:
+// + and * in one fixed order give the same bits everywhere.
 
 #if defined(POINTREEL_PREDICT_BIT_MIXING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef POINTREEL_PREDICT_BIT_MIXING_INL_H_
@@ -77,22 +78,19 @@ POINTREEL_INLINE bool code_counted(Coder& coder, CountedBit& model, bool bit) {
   return bit;
 }
 
-template <std::size_t kInputs, std::size_t kWeights>
-POINTREEL_INLINE Probability16 mix(const MixerWeights<kWeights>& mixer,
-                                   const std::array<float, kInputs>& inputs) {
-  static_assert(kInputs <= kWeights);
-  float sum = mixer.weight[0] * inputs[0];
-  for (std::size_t i = 1; i < kInputs; ++i) sum = sum + mixer.weight[i] * inputs[i];
-  return squashed(sum);
-}
-
-// `p_one` is what mix() gave for these inputs. Weights move by rate * error * input: at most rate * 8 a bit,
-// so that no image of legal size makes them overflow.
-template <std::size_t kInputs, std::size_t kWeights>
-POINTREEL_INLINE void learn(MixerWeights<kWeights>& mixer, const std::array<float, kInputs>& inputs,
-                            Probability16 p_one, bool bit, float rate) {
-  const float error = coding_error(p_one, bit) * rate;
-  for (std::size_t i = 0; i < kInputs; ++i) mixer.weight[i] = mixer.weight[i] + error * inputs[i];
+// Codes a bit whose stretch is `known` plus adaptive terms, each of a context of its own. No weights: how
+// much a term says is its size. Terms move by at most `rate` a bit, so that no image of legal size makes them
+// overflow. Gives back the rate times the error, too.
+template <class Coder, std::size_t kTerms>
+POINTREEL_INLINE bool code_sum(Coder& coder, float known, float* const (&terms)[kTerms], float rate, bool bit,
+                               float& move) {
+  float sum = known;
+  for (const float* term : terms) sum = sum + *term;
+  const Probability16 p_one = squashed(sum);
+  bit = coder.code_with(bit, p_one);
+  move = coding_error(p_one, bit) * rate;
+  for (float* term : terms) *term = *term + move;
+  return bit;
 }
 
 }  // namespace HWY_NAMESPACE

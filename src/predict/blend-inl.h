@@ -39,12 +39,12 @@ struct NeighbourWeights {
   }
 };
 
-// Of eight cells: the proposals with the blend in lane 0, what scales their distributions, and the class of
-// the blend's recent error.
-template <std::size_t kExperts>
+// Of eight cells: the proposals of the mixture's experts with the blend in lane 0, what scales their
+// distributions, and the class of the blend's recent error.
+template <std::size_t kMixed>
 struct BlendedProposals {
-  TurnedLanes<kExperts / 4> range_m;
-  TurnedLanes<kExperts / 4> inverse_scale;  // sqrt(floor / mean squared error) / step
+  TurnedLanes<kMixed / 4> range_m;
+  TurnedLanes<kMixed / 4> inverse_scale;  // sqrt(floor / mean squared error) / step
   alignas(32) float blend_m[8];
   alignas(32) std::int32_t error_class[8];
   alignas(32) std::int32_t spread_class[8];  // the same for how far the proposals lie from the blend
@@ -122,20 +122,20 @@ POINTREEL_INLINE Blend weigh(const ErrorPlanes<kExperts>& errors, const Neighbou
   return blend;
 }
 
-// The same with all that the mixture looks at.
-template <std::size_t kExperts>
+// The same with all that the mixture looks at, which is one of the first kMixed experts.
+template <std::size_t kExperts, std::size_t kMixed>
 HWY_NOINLINE void blend(const ErrorPlanes<kExperts>& errors, const Neighbourhood& cells, int step,
-                        float step_m, Proposals<kExperts>& proposals, BlendedProposals<kExperts>& blended) {
+                        float step_m, Proposals<kExperts>& proposals, BlendedProposals<kMixed>& blended) {
   Float8 precision[kExperts];
   const Blend blend = weigh<kExperts>(errors, cells, step, step_m, proposals, precision);
   store(blend.range_m, blended.blend_m);
   store(error_classes(blend.squared_error), blended.error_class);
   store(error_classes(blend.spread), blended.spread_class);
   const float floor = error_floor(step_m);
-  Float8 inverse_scale[kExperts];
-  for (std::size_t k = 0; k < kExperts; ++k)
+  Float8 inverse_scale[kMixed];
+  for (std::size_t k = 0; k < kMixed; ++k)
     inverse_scale[k] = (1 / step_m) * square_root(floor * precision[k]);
-  for (std::size_t g = 0; g < kExperts / 4; ++g) {
+  for (std::size_t g = 0; g < kMixed / 4; ++g) {
     const Float8* r = &proposals.range_m[4 * g];
     const Float8* s = &inverse_scale[4 * g];
     store_turned(r[0], r[1], r[2], r[3], g, blended.range_m);

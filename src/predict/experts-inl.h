@@ -7,6 +7,7 @@
 #define POINTREEL_PREDICT_EXPERTS_INL_H_
 #endif
 
+#include <array>
 #include <cstdint>
 
 #include "predict/local_fits-inl.h"
@@ -18,20 +19,21 @@ HWY_BEFORE_NAMESPACE();
 namespace pointreel {
 namespace HWY_NAMESPACE {
 
-// The order of the lanes is part of the format. Lane 0 is left for the blend (blend-inl.h).
+// The order of the lanes is part of the format. Lane 0 is left for the blend (blend-inl.h). A mixture of
+// eight has the first eight; the others only go into the blend.
 enum Expert : std::uint8_t {  // of all frames
-  kPlane = 1,                 // local fits
-  kLine = 2,
-  kParallel = 3,
-  kLeft = 4,  // ranges seen nearby: the surfaces that may go on here
-  kAbove = 5,
-  kAboveRight = 6,
-  kEdge = 7,  // behind the last depth edge of the row
+  kPlane = 1,                 // local fit
+  kLeft = 2,                  // ranges seen nearby: the surfaces that may go on here
+  kAboveRight = 3,
+  kEdge = 4,  // behind the last depth edge of the row
+  kLine = 8,  // local fits
+  kParallel = 9,
+  kAbove = 10,
 };
 enum KeyExpert : std::uint8_t {
-  kKeyLine2 = 8,  // the last two returns of the row go on, in inverse range
-  kKeyStep = 9,   // the step from above to above right, from the cell left
-  kKeyAboveLeft = 10,
+  kKeyLine2 = 5,  // the last two returns of the row go on, in inverse range
+  kKeyStep = 6,   // the step from above to above right, from the cell left
+  kKeyAboveLeft = 7,
   kKeyAboveRight2 = 11,
   kKeyLeft2 = 12,
   kKeyLeft3 = 13,
@@ -39,15 +41,23 @@ enum KeyExpert : std::uint8_t {
   kKeyEarlierEdge = 15,
 };
 enum PredictedExpert : std::uint8_t {
-  kReferenceHere = 8,  // the warped reference's range
-  kPredictedLeft2 = 9,
-  kReferenceLeftStep = 10,  // its step from the cell left
-  kPredictedLine2 = 11,
-  kReferenceRight = 12,  // its neighbours: what moved
-  kReferenceLeft = 13,
-  kReferenceBelow = 14,
-  kReferenceMean = 15,  // mean of three cells, plus the mean difference to what is coded around
+  kReferenceHere = 5,      // the warped reference's range
+  kReferenceRight = 6,     // its neighbours: what moved
+  kReferenceLeftStep = 7,  // its step from the cell left
+  kReferenceMean = 11,     // mean of three cells, plus the mean difference to what is coded around
+  // Of effort max only:
+  kPredictedLeft2 = 12,
+  kPredictedLine2 = 13,
+  kReferenceLeft = 14,
+  kReferenceBelow = 15,
 };
+
+// Triples of proposals whose places among the bins are contexts of the second stage.
+using ExpertTriple = std::array<std::uint8_t, 3>;
+inline constexpr std::array<ExpertTriple, StepModels::kPlaces> kKeyTriples = {
+    {{kKeyStep, kLeft, kAbove}, {kPlane, kLine, kAboveRight}}};
+inline constexpr std::array<ExpertTriple, StepModels::kPlaces> kPredictedTriples = {
+    {{kReferenceHere, kLeft, kAbove}, {kPlane, kReferenceMean, kReferenceRight}}};
 
 // Eight cells' proposals, a range per expert.
 template <std::size_t kExperts>
@@ -103,10 +113,11 @@ struct Surroundings {
   POINTREEL_INLINE Float8 mean_left() const { return or_start(where(seen(left2), 0.5F * (left + left2))); }
 };
 
-// What all frames propose: lanes 0 to kEdge.
+// What all frames propose. Fewer experts look at fewer cells.
+template <std::size_t kExperts>
 POINTREEL_INLINE void propose_from_around(const Neighbourhood& cells, const RowMemory& memory,
                                           const Surroundings& around, Float8* range_m) {
-  const LocalFits fits = fit_locally(cells, around.start, around.above);
+  const LocalFits fits = fit_locally < kExperts == kMostExperts ? 8 : 5 > (cells, around.start, around.above);
   range_m[0] = around.start;
   range_m[kPlane] = around.if_likely(inverted(fits.plane));
   range_m[kLine] = around.if_likely(inverted(fits.line));
@@ -117,23 +128,21 @@ POINTREEL_INLINE void propose_from_around(const Neighbourhood& cells, const RowM
   range_m[kEdge] = around.or_start(memory.edge_m());
 }
 
-template <std::size_t kExperts>
-HWY_NOINLINE Proposals<kExperts> propose_for_key_frame(const Neighbourhood& cells, const RowMemory& memory) {
+HWY_NOINLINE inline Proposals<kMostExperts> propose_for_key_frame(const Neighbourhood& cells,
+                                                                  const RowMemory& memory) {
   const Surroundings around(cells, memory, all<8>(0));
-  Proposals<kExperts> proposals;
+  Proposals<kMostExperts> proposals;
   Float8* range_m = proposals.range_m;
-  propose_from_around(cells, memory, around, range_m);
-  if constexpr (kExperts == 16) {
-    range_m[kKeyLine2] = around.line2();
-    range_m[kKeyStep] = around.step_from_above();
-    range_m[kKeyAboveLeft] = around.or_start(around.above_left);
-    range_m[kKeyAboveRight2] =
-        around.or_start(select(seen(around.above_right2), around.above_right2, around.above_right));
-    range_m[kKeyLeft2] = around.or_start(around.left2);
-    range_m[kKeyLeft3] = around.or_start(cells.range_m(-3));
-    range_m[kKeyMeanLeft] = around.mean_left();
-    range_m[kKeyEarlierEdge] = around.or_start(memory.earlier_edge_m());
-  }
+  propose_from_around<kMostExperts>(cells, memory, around, range_m);
+  range_m[kKeyLine2] = around.line2();
+  range_m[kKeyStep] = around.step_from_above();
+  range_m[kKeyAboveLeft] = around.or_start(around.above_left);
+  range_m[kKeyAboveRight2] =
+      around.or_start(select(seen(around.above_right2), around.above_right2, around.above_right));
+  range_m[kKeyLeft2] = around.or_start(around.left2);
+  range_m[kKeyLeft3] = around.or_start(cells.range_m(-3));
+  range_m[kKeyMeanLeft] = around.mean_left();
+  range_m[kKeyEarlierEdge] = around.or_start(memory.earlier_edge_m());
   return proposals;
 }
 
@@ -165,17 +174,19 @@ HWY_NOINLINE Proposals<kExperts> propose_for_predicted_frame(const Neighbourhood
   constexpr float kSmoothM = 0.3F;
   Proposals<kExperts> proposals;
   Float8* range_m = proposals.range_m;
-  propose_from_around(cells, memory, around, range_m);
+  propose_from_around<kExperts>(cells, memory, around, range_m);
   range_m[kReferenceHere] = around.or_start(here);
-  range_m[kPredictedLeft2] = around.or_start(around.left2);
-  range_m[kPredictedLine2] = around.line2();
   range_m[kReferenceLeftStep] =
       around.if_likely(where(seen(here) & seen(west) & seen(around.left), around.left + (here - west)));
   const Float8 reference_or_start = range_m[kReferenceHere];
   const auto or_here = [&](const Float8& m) HWY_ATTR { return select(seen(m), m, reference_or_start); };
   range_m[kReferenceRight] = or_here(east);
-  range_m[kReferenceLeft] = or_here(west);
-  range_m[kReferenceBelow] = or_here(reference.range_m(0, 1));
+  if constexpr (kExperts > kPredictedLeft2) {
+    range_m[kPredictedLeft2] = around.or_start(around.left2);
+    range_m[kPredictedLine2] = around.line2();
+    range_m[kReferenceLeft] = or_here(west);
+    range_m[kReferenceBelow] = or_here(reference.range_m(0, 1));
+  }
   {
     Float8 sum = here, count = all<8>(1);
     for (const Float8& beside : {west, east}) {

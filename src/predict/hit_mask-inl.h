@@ -2,7 +2,7 @@
 // ranges.
 //
 // When a cell's bit is coded both sides know the hits and the decoded ranges of all cells before it, and all
-// of the reference. Adaptive bits, each in a context of its own, predict it, and a mixer weighs them.
+// of the reference.
 
 #if defined(POINTREEL_PREDICT_HIT_MASK_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef POINTREEL_PREDICT_HIT_MASK_INL_H_
@@ -49,23 +49,18 @@ class HitMaskModel {
     constexpr std::size_t kUsed = kEffort == Effort::fast ? HitMaskState::kFastContexts
                                   : kPredicted            ? std::size_t{HitMaskState::kContexts}
                                                           : HitMaskState::kKeyContexts;
-    constexpr float kMixingRate = 1.F / 512;
+    constexpr float kRate = 0.02F;
     if (contexts_.is_sure(cell)) return code_sure(coder, cell, hit);
-    std::array<CountedBit*, kUsed> slots;
-    std::array<float, kUsed> inputs;
+    float* terms[kUsed];
     for (std::size_t i = 0; i < kUsed; ++i) {
       auto slot = static_cast<std::size_t>(contexts_.slot[i][cell]);
       if (i == HitMaskState::kRow) slot |= static_cast<std::size_t>(row) * HitMaskState::kSlots[i];
       if (i == HitMaskState::kRuns) slot |= contexts_.run_class(cell);
       if (i == HitMaskState::kDensity) slot |= contexts_.density_class(cell);
-      slots[i] = &state_.bits[i][slot];
-      inputs[i] = stretched(*slots[i]);
+      terms[i] = &state_.terms[i][slot];
     }
-    auto& mixer = state_.mixers[static_cast<std::size_t>(contexts_.mixer[cell])];
-    const Probability16 p_one = mix(mixer, inputs);
-    hit = coder.code_with(hit, p_one);
-    learn(mixer, inputs, p_one, hit, kMixingRate);
-    for (CountedBit* slot : slots) slot->update(hit);
+    float move;
+    hit = code_sum(coder, 0, terms, kRate, hit, move);
     hits_[cell] = hit ? 1 : 0;
     return hit;
   }

@@ -102,7 +102,7 @@ inline constexpr auto kRunClasses = [] {
   return classes;
 }();
 
-// Slots of the adaptive bits, but for what run_class() and density_class() add.
+// Slots of the terms, but for what run_class() and density_class() add.
 class HitMaskContexts {
  public:
   HWY_NOINLINE void find(const HitMaskPlanes& planes, const Int8& row_range, int step) {
@@ -134,9 +134,6 @@ class HitMaskContexts {
               shifted_left<8>(edge_class(log_range(0, -1), log_range(1, -1))),
           slot[HitMaskState::kEdges]);
     store(shifted_left<8>(north) | shifted_left<9>(north_east), slot[HitMaskState::kDensity]);
-    store(north | shifted_left<1>(north_east) | shifted_left<2>(shifted_right<kAhead + 1>(above) & one) |
-              shifted_left<3>(here & all_ints<8>(3)),
-          mixer);
     store(here, pattern_);
     // The last three of the row, and in the row above those from one column left to two right.
     const Int8 around =
@@ -174,9 +171,6 @@ class HitMaskContexts {
               shifted_left<6>(differs(north_east_coded, reference.hits(1, -1))) |
               shifted_left<7>(coded & one) | shifted_left<8>(warped(west)) | shifted_left<9>(warped(east)),
           slot[HitMaskState::kAgreement]);
-    store((north_coded & one) | shifted_left<1>(north_east_coded & one) | shifted_left<2>(coded & one) |
-              shifted_left<3>(warped(here)) | shifted_left<4>(previous(here)),
-          mixer);
   }
 
   // Each of the eight.
@@ -208,7 +202,6 @@ class HitMaskContexts {
   }
 
   alignas(32) std::int32_t slot[HitMaskState::kContexts][Wavefront::kRows];
-  alignas(32) std::int32_t mixer[Wavefront::kRows];
 
  private:
   // Windows of cells above: columns from -8 to kAhead and kAhead2 to the right.

@@ -9,7 +9,6 @@
 
 #include "entropy/bit_mixer.h"
 #include "predict/coding_kind.h"
-#include "predict/mixer_weights.h"
 
 namespace pointreel {
 
@@ -19,36 +18,31 @@ struct HitMaskState {
   static constexpr std::array<std::size_t, kContexts> kSlots = {768, 512, 8, 1024, 1024, 2048, 1024};
   static constexpr std::size_t kKeyContexts = kReference;
   static constexpr std::size_t kFastContexts = kRow;
-  static constexpr std::size_t kMixers = 32;
 
   explicit HitMaskState(std::size_t rows) {
     for (std::size_t i = 0; i < kContexts; ++i)
-      bits[i].resize(i == kRow ? std::max<std::size_t>(rows, 1) * kSlots[i] : kSlots[i]);
+      terms[i].resize(i == kRow ? std::max<std::size_t>(rows, 1) * kSlots[i] : kSlots[i]);
   }
 
   // Of the band: at least 1.
-  std::size_t rows() const { return bits[kRow].size() / kSlots[kRow]; }
+  std::size_t rows() const { return terms[kRow].size() / kSlots[kRow]; }
 
-  CountedBit together;                                  // of eight cells amid hits, effort fast: all are hits
-  std::array<CountedBit, kSlots[kEdges]> sure;          // of one cell amid hits
-  std::array<std::vector<CountedBit>, kContexts> bits;  // kRow: kSlots for each row
-  std::array<MixerWeights<kContexts>, kMixers> mixers;
+  CountedBit together;                              // of eight cells amid hits: all are hits
+  std::array<CountedBit, kSlots[kEdges]> sure;      // of one cell amid hits
+  std::array<std::vector<float>, kContexts> terms;  // of the others; kRow: kSlots for each row
 };
 
 // Shows a visitor all that adapts, in the order of the tables of priors (priors.h).
 template <class State, class Visitor>
-void visit_hit_mask_state(State& state, const CodingKind& kind, Visitor& visitor) {
-  if (kind.effort == Effort::fast) visitor.bit(state.together);
+void visit_hit_mask_state(State& state, Visitor& visitor) {
+  visitor.bit(state.together);
   for (auto& bit : state.sure) visitor.bit(bit);
   for (std::size_t i = 0; i < HitMaskState::kContexts; ++i) {
     if (i == HitMaskState::kRow) {
-      visitor.bits_by_row(state.bits[i].data(), state.rows(), HitMaskState::kSlots[HitMaskState::kRow]);
+      visitor.weights_by_row(state.terms[i].data(), state.rows(), HitMaskState::kSlots[HitMaskState::kRow]);
     } else {
-      for (auto& bit : state.bits[i]) visitor.bit(bit);
+      for (auto& term : state.terms[i]) visitor.weight(term);
     }
-  }
-  for (auto& mixer : state.mixers) {
-    for (auto& weight : mixer.weight) visitor.weight(weight);
   }
 }
 

@@ -58,7 +58,7 @@ POINTREEL_INLINE Float8 plane_at_cell(const RowSums& here, const RowSums& above,
                                       const Float8& offset) {
   constexpr float kRidge = 1e-2F;  // keeps slopes small where they cannot be told
   constexpr float kSmallestDeterminant = 1e-9F;
-  constexpr float kY = FitKernels::kColumnsPerRow;
+  constexpr float kY = kFitColumnsPerRow;
   const Float8 m00 = here.w + (above.w + above2.w);
   const Float8 m01 = here.wx + (above.wx + above2.wx);
   const Float8 m02 = -kY * (above.w + 2 * above2.w);
@@ -78,42 +78,43 @@ POINTREEL_INLINE Float8 plane_at_cell(const RowSums& here, const RowSums& above,
 }
 
 // `reference_m`: range of the surface, `above_m`: range of the cells above or 0.
-HWY_NOINLINE inline LocalFits fit_locally(const Neighbourhood& cells, const Float8& reference_m,
-                                          const Float8& above_m) {
-  const FitKernels& kernels = kFitKernels;
+template <int kCellsAbove>
+HWY_NOINLINE LocalFits fit_locally(const Neighbourhood& cells, const Float8& reference_m,
+                                   const Float8& above_m) {
+  using Kernels = FitKernels<kCellsAbove>;
+  const Kernels& kernels = kFitKernels<kCellsAbove>;
   const Similarity similar(reference_m);
   const Similarity similar_above(above_m);
   const Float8 inverse_reference = all<8>(1) / reference_m;
-  RowSums here, above, above2, line;
+  RowSums here, above, above2;
   Float8 parallel_weight = all<8>(0), parallel_step = all<8>(0);
-  for (int i = 0; i < FitKernels::kHere; ++i) {
-    const int column = FitKernels::kFirstHere + i;
+  for (int i = 0; i < Kernels::kHere; ++i) {
+    const int column = Kernels::kFirstHere + i;
     const auto x = static_cast<float>(column);
     const Float8 inverse = cells.inverse_range(column);
     const Mask<8> counts = similar(cells.range_m(column));
     const Float8 u = inverse - inverse_reference;
-    here.add(counts, kernels.plane_here[i], x, u);
-    line.add(counts, kernels.line[i], x, u);
-    const Float8 both = where(counts & similar_above(cells.range_m(column, -1)), all<8>(kernels.line[i]));
+    here.add(counts, kernels.here[i], x, u);
+    const Float8 both = where(counts & similar_above(cells.range_m(column, -1)), all<8>(kernels.here[i]));
     parallel_weight = parallel_weight + both;
     parallel_step = parallel_step + both * (inverse - cells.inverse_range(column, -1));
   }
-  for (int i = 0; i < FitKernels::kAbove; ++i) {
-    const int column = FitKernels::kFirstAbove + i;
+  for (int i = 0; i < Kernels::kAbove; ++i) {
+    const int column = Kernels::kFirstAbove + i;
     const auto x = static_cast<float>(column);
-    above.add(similar(cells.range_m(column, -1)), kernels.plane_above[i], x,
+    above.add(similar(cells.range_m(column, -1)), kernels.above[i], x,
               cells.inverse_range(column, -1) - inverse_reference);
-    above2.add(similar(cells.range_m(column, -2)), kernels.plane_above2[i], x,
+    above2.add(similar(cells.range_m(column, -2)), kernels.above2[i], x,
                cells.inverse_range(column, -2) - inverse_reference);
   }
   LocalFits fits;
   fits.plane = plane_at_cell(here, above, above2, inverse_reference);
   {
     constexpr float kSmallestDeterminant = 1e-9F;
-    const Float8 wxx = line.wxx + all<8>(0.5F);
-    const Float8 determinant = line.w * wxx - line.wx * line.wx;
+    const Float8 wxx = here.wxx + all<8>(0.5F);
+    const Float8 determinant = here.w * wxx - here.wx * here.wx;
     const Float8 value =
-        (line.wu * wxx - line.wxu * line.wx) / larger(determinant, all<8>(kSmallestDeterminant));
+        (here.wu * wxx - here.wxu * here.wx) / larger(determinant, all<8>(kSmallestDeterminant));
     fits.line = where(all<8>(kSmallestDeterminant) <= determinant, value + inverse_reference);
   }
   const Mask<8> has_parallel = (all<8>(kSmallestRangeM) <= above_m) & (all<8>(1e-3F) <= parallel_weight);

@@ -40,9 +40,11 @@ void visit_max_range_state(State& state, Visitor& visitor) {
       for (auto& inverse_scale : trust.inverse_scale) visitor.logarithm(inverse_scale);
     }
   }
-  for (auto& question : state.questions.of) {
-    for (auto& bits : question.bits) {
-      if (bits.size() == MaxQuestionModels::kByRow) {
+  for (std::size_t kind = 0; kind < MaxQuestionModels::kKinds; ++kind) {
+    auto& question = state.questions.of[kind];
+    for (std::size_t i = 0; i < QuestionModels::kContexts; ++i) {
+      auto& bits = question.bits[i];
+      if (i == MaxQuestionModels::kOwnByRow && kind != MaxQuestionModels::kMore) {
         visitor.bits_by_row(bits.data(), StepModels::kRows, StepModels::kAvailabilities);
       } else {
         for (auto& bit : bits) visitor.bit(bit);

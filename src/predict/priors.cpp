@@ -62,6 +62,11 @@ class PriorReader {
     for (std::size_t i = per_row; i < rows * per_row; ++i) bits[i] = bits[i - per_row];
   }
 
+  void weights_by_row(float* weights, std::size_t rows, std::size_t per_row) {
+    for (std::size_t i = 0; i < per_row; ++i) weight(weights[i]);
+    for (std::size_t i = per_row; i < rows * per_row; ++i) weights[i] = weights[i - per_row];
+  }
+
  private:
   const std::int8_t* next_;
 };
@@ -71,7 +76,7 @@ class PriorReader {
 BandState state_from_priors(const CodingKind& kind, float step_m, const Band& band) {
   BandState state{HitMaskState(static_cast<std::size_t>(band.rows)), {}, {}, {}};
   PriorReader mask(hit_mask_priors(kind));
-  visit_hit_mask_state(state.mask, kind, mask);
+  visit_hit_mask_state(state.mask, mask);
   PriorReader ranges(range_priors(kind, prior_set(step_m)));
   if (kind.effort == Effort::fast) {
     visit_fast_range_state(state.fast, ranges);

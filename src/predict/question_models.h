@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "entropy/bit_mixer.h"
+#include "predict/mixer_weights.h"
 #include "predict/range_state.h"
 
 namespace pointreel {
@@ -24,6 +25,7 @@ struct QuestionModels {
 // Contexts: two of a question's own, then where four triples of proposals lie (max_second_stage-inl.h).
 struct MaxQuestionModels {
   static constexpr std::size_t kOwn = 2;
+  static constexpr std::size_t kOwnByRow = 1;  // of them, but for kMore
   static constexpr std::size_t kTriples = 7 * 7 * 7;
   static constexpr std::size_t kByRow = StepModels::kRows * StepModels::kAvailabilities;
   enum Kind : std::uint8_t { kZero, kSign, kMore, kKinds };

@@ -30,7 +30,7 @@ template <Effort kEffort, bool kPredicted>
 class RangeModel {
  public:
   static constexpr CodingKind kKind = {kPredicted, kEffort};
-  static constexpr std::size_t kExperts = experts_of(kKind);
+  static constexpr std::size_t kExperts = experts_of(kKind), kMixed = mixed_of(kKind);
 
   RangeModel(int columns, const BandSetting& setting, BandState& state)
       : columns_(columns),
@@ -54,11 +54,15 @@ class RangeModel {
       coded_.proposals =
           propose_for_predicted_frame<kExperts>(cells, coded_.memory, ReferenceView(*reference, step));
     } else {
-      coded_.proposals = propose_for_key_frame<kExperts>(cells, coded_.memory);
+      coded_.proposals = propose_for_key_frame(cells, coded_.memory);
     }
     if (ingredients_.experts_off != 0) leave_out_experts();
-    blend<kExperts>(coded_.errors, cells, step, coded_.step_m, coded_.proposals, blended_);
+    blend<kExperts, kMixed>(coded_.errors, cells, step, coded_.step_m, coded_.proposals, blended_);
     contexts_ = StepContexts(coded_.steps, cells, step);
+    if constexpr (!has_trust(kKind)) {
+      contexts_.find_places(coded_.proposals.range_m, coded_.step_m,
+                            kPredicted ? kPredictedTriples : kKeyTriples);
+    }
     coded_.proposed = true;
   }
 
@@ -78,7 +82,7 @@ class RangeModel {
       origin_[cell] = origin.expert;
       bins_[cell].start(mixture, coded_.quantised(origin.range_m, cell), coded_.step_m);
     } else {
-      bins_[cell].start(Mixture<kExperts>(state_.ranges.mixture, blended_, cell),
+      bins_[cell].start(Mixture<kMixed>(state_.ranges.mixture, blended_, cell),
                         coded_.quantised(blended_.blend_m[cell], cell), coded_.step_m);
     }
   }
@@ -124,7 +128,7 @@ class RangeModel {
   POINTREEL_INLINE void remember(int step) { coded_.remember(step); }
 
  private:
-  using CellMixture = std::conditional_t<has_trust(kKind), TrustedMixture, Mixture<kExperts>>;
+  using CellMixture = std::conditional_t<has_trust(kKind), TrustedMixture, Mixture<kMixed>>;
   using CellBins = Bins<CellMixture>;
 
   template <class Coder, class Stage>
@@ -147,7 +151,7 @@ class RangeModel {
   BandState& state_;
 
   // Of the eight cells at hand.
-  BlendedProposals<kExperts> blended_;
+  BlendedProposals<kMixed> blended_;
   int step_ = 0;
   StepContexts contexts_;
   std::size_t origin_[Wavefront::kRows];  // the expert around whose proposal the bins lie

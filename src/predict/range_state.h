@@ -5,9 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "entropy/bit_mixer.h"
 #include "predict/coding_kind.h"
-#include "predict/mixer_weights.h"
 
 namespace pointreel {
 
@@ -27,7 +25,8 @@ struct MixtureState {
   std::array<PerClass, kErrorClasses> classes;
 };
 
-// Adaptive models of the first questions about a bin, and the mixers over them.
+// What the second stage has learnt about the first questions about a bin: by how much it corrects the
+// mixture's answers, in ln(p / (1 - p)).
 struct StepModels {
   static constexpr std::size_t kUnarySteps = 6;
   static constexpr std::size_t kRows = 64;    // rows below share the last row's models
@@ -35,17 +34,22 @@ struct StepModels {
   static constexpr std::size_t kActivities = 16;
   static constexpr std::size_t kSigns = 125;
   static constexpr std::size_t kAvailabilities = 4;
+  static constexpr std::size_t kPlaces = 2, kTriples = 7 * 7 * 7;  // where triples of proposals lie
 
-  std::array<CountedBit, kActivities * kErrors> zero_by_activity;
-  std::array<CountedBit, kErrors * kErrors> zero_by_spread;  // of the proposals
-  std::array<CountedBit, kRows * kAvailabilities> zero_by_row;
-  std::array<CountedBit, kSigns> sign_by_signs;
-  std::array<CountedBit, kRows * kAvailabilities> sign_by_row;
-  std::array<CountedBit, kErrors * kUnarySteps> more_by_error;
-  std::array<CountedBit, kErrors * kUnarySteps> more_by_spread;
-  std::array<MixerWeights<4>, kAvailabilities * kActivities> zero_mixers;
-  std::array<MixerWeights<3>, kAvailabilities> sign_mixers;
-  std::array<MixerWeights<3>, kUnarySteps * 4> more_mixers;
+  std::array<float, kActivities * kErrors> zero_by_activity{};
+  std::array<float, kErrors * kErrors> zero_by_spread{};  // of the proposals
+  std::array<float, kRows * kAvailabilities> zero_by_row{};
+  std::array<std::array<float, kTriples>, kPlaces> zero_by_places{};
+  std::array<float, kSigns> sign_by_signs{};
+  std::array<float, kRows * kAvailabilities> sign_by_row{};
+  std::array<std::array<float, kTriples>, kPlaces> sign_by_places{};
+  std::array<float, kErrors * kUnarySteps> more_by_error{};
+  std::array<float, kErrors * kUnarySteps> more_by_spread{};
+  std::array<std::array<float, kTriples * 2 * kUnarySteps>, kPlaces> more_by_places{};
+  // Of the mixture's answer itself.
+  std::array<float, kAvailabilities * kActivities> zero_weight{};
+  std::array<float, kAvailabilities> sign_weight{};
+  std::array<float, kUnarySteps * 4> more_weight{};
 };
 
 struct RangeModelState {
@@ -56,27 +60,31 @@ struct RangeModelState {
 // Shows a visitor all that adapts, in the order of the tables of priors (priors.h).
 template <class State, class Visitor>
 void visit_range_state(State& state, const CodingKind& kind, Visitor& visitor) {
-  const std::size_t experts = experts_of(kind);
+  const std::size_t experts = mixed_of(kind);
   for (auto& at : state.mixture.classes) {
     for (std::size_t k = 0; k < experts; ++k) visitor.logarithm(at.weight[k]);
     for (std::size_t k = 0; k < experts; ++k) visitor.logarithm(at.inverse_scale[k]);
   }
-  auto& steps = state.steps;
-  for (auto& bit : steps.zero_by_activity) visitor.bit(bit);
-  for (auto& bit : steps.zero_by_spread) visitor.bit(bit);
-  visitor.bits_by_row(steps.zero_by_row.data(), StepModels::kRows, StepModels::kAvailabilities);
-  for (auto& bit : steps.sign_by_signs) visitor.bit(bit);
-  visitor.bits_by_row(steps.sign_by_row.data(), StepModels::kRows, StepModels::kAvailabilities);
-  for (auto& bit : steps.more_by_error) visitor.bit(bit);
-  for (auto& bit : steps.more_by_spread) visitor.bit(bit);
-  const auto visit_weights = [&](auto& mixers) {
-    for (auto& mixer : mixers) {
-      for (auto& weight : mixer.weight) visitor.weight(weight);
-    }
+  const auto visit_all = [&](auto& weights) {
+    for (auto& weight : weights) visitor.weight(weight);
   };
-  visit_weights(steps.zero_mixers);
-  visit_weights(steps.sign_mixers);
-  visit_weights(steps.more_mixers);
+  const auto visit_rows = [&](auto& weights) {
+    visitor.weights_by_row(weights.data(), StepModels::kRows, StepModels::kAvailabilities);
+  };
+  auto& steps = state.steps;
+  visit_all(steps.zero_by_activity);
+  visit_all(steps.zero_by_spread);
+  visit_rows(steps.zero_by_row);
+  for (auto& places : steps.zero_by_places) visit_all(places);
+  visit_all(steps.sign_by_signs);
+  visit_rows(steps.sign_by_row);
+  for (auto& places : steps.sign_by_places) visit_all(places);
+  visit_all(steps.more_by_error);
+  visit_all(steps.more_by_spread);
+  for (auto& places : steps.more_by_places) visit_all(places);
+  visit_all(steps.zero_weight);
+  visit_all(steps.sign_weight);
+  visit_all(steps.more_weight);
 }
 
 }  // namespace pointreel

@@ -1,8 +1,7 @@
 // Codes which bin of the quantiser a range falls into, by yes-or-no questions outward from the predicted one.
 //
-// The mixture answers each question with a probability; for the first few a second stage mixes it with what
-// adaptive models have seen under the same circumstances, which corrects what the mixture gets wrong
-// systematically.
+// The mixture answers each question with a probability; for the first few a second stage corrects what the
+// mixture gets wrong systematically under the same circumstances.
 
 #if defined(POINTREEL_PREDICT_STEP_CODER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef POINTREEL_PREDICT_STEP_CODER_INL_H_
@@ -30,20 +29,16 @@ POINTREEL_INLINE Probability16 to_probability(float p) {
   return static_cast<Probability16>(static_cast<std::int32_t>(clamped(p * 65536, kLeast, kMost)));
 }
 
-template <class Coder, std::size_t kModels>
-POINTREEL_INLINE bool code_mixed(Coder& coder, bool second_stage, float p,
-                                 CountedBit* const (&models)[kModels], MixerWeights<kModels + 1>& mixer,
-                                 bool bit) {
+// `weight`: of the mixture's answer `p`.
+template <class Coder, std::size_t kTerms>
+POINTREEL_INLINE bool code_corrected(Coder& coder, bool second_stage, float p, float* const (&terms)[kTerms],
+                                     float& weight, bool bit) {
   if (!second_stage) return coder.code_with(bit, to_probability(p));
-  constexpr std::uint32_t kSettledCount = 60;
-  constexpr float kMixingRate = 1.F / 256;
-  std::array<float, kModels + 1> inputs;
-  inputs[0] = stretched(p);
-  for (std::size_t i = 0; i < kModels; ++i) inputs[i + 1] = stretched(*models[i]);
-  const Probability16 mixed = mix(mixer, inputs);
-  bit = coder.code_with(bit, mixed);
-  learn(mixer, inputs, mixed, bit, kMixingRate);
-  for (CountedBit* model : models) model->template update<kSettledCount>(bit);
+  constexpr float kTermRate = 0.01F, kWeightRate = 1.F / 256;
+  const float answer = stretched(p);
+  float move;
+  bit = code_sum(coder, weight * answer, terms, kTermRate, bit, move);
+  weight = weight + kWeightRate / kTermRate * move * answer;
   return bit;
 }
 
@@ -90,28 +85,33 @@ class SecondStage {
 
   template <class Coder>
   POINTREEL_INLINE bool code_zero(Coder& coder, float p, bool zero) const {
-    return code_mixed(coder, in_use_, p,
-                      {&models_.zero_by_activity[at_.activity * StepModels::kErrors + at_.error],
-                       &models_.zero_by_spread[at_.spread * StepModels::kErrors + at_.error],
-                       &models_.zero_by_row[at_.row * StepModels::kAvailabilities + at_.availability]},
-                      models_.zero_mixers[at_.activity * StepModels::kAvailabilities + at_.availability],
-                      zero);
+    return code_corrected(
+        coder, in_use_, p,
+        {&models_.zero_by_activity[at_.activity * StepModels::kErrors + at_.error],
+         &models_.zero_by_spread[at_.spread * StepModels::kErrors + at_.error],
+         &models_.zero_by_row[at_.row * StepModels::kAvailabilities + at_.availability],
+         &models_.zero_by_places[0][at_.places[0]], &models_.zero_by_places[1][at_.places[1]]},
+        models_.zero_weight[at_.activity * StepModels::kAvailabilities + at_.availability], zero);
   }
   template <class Coder>
   POINTREEL_INLINE bool code_sign(Coder& coder, float p, bool down) const {
-    return code_mixed(coder, in_use_, p,
-                      {&models_.sign_by_signs[at_.signs],
-                       &models_.sign_by_row[at_.row * StepModels::kAvailabilities + at_.availability]},
-                      models_.sign_mixers[at_.availability], down);
+    return code_corrected(
+        coder, in_use_, p,
+        {&models_.sign_by_signs[at_.signs],
+         &models_.sign_by_row[at_.row * StepModels::kAvailabilities + at_.availability],
+         &models_.sign_by_places[0][at_.places[0]], &models_.sign_by_places[1][at_.places[1]]},
+        models_.sign_weight[at_.availability], down);
   }
   template <class Coder>
-  POINTREEL_INLINE bool code_more(Coder& coder, bool /*down*/, std::int32_t magnitude, float p,
-                                  bool more) const {
+  POINTREEL_INLINE bool code_more(Coder& coder, bool down, std::int32_t magnitude, float p, bool more) const {
     const auto step = static_cast<std::size_t>(magnitude - 1);
-    return code_mixed(coder, in_use_, p,
-                      {&models_.more_by_error[at_.error * StepModels::kUnarySteps + step],
-                       &models_.more_by_spread[at_.spread * StepModels::kUnarySteps + step]},
-                      models_.more_mixers[step * 4 + at_.activity / 4], more);
+    const std::size_t by_step = (down ? StepModels::kUnarySteps : 0) + step;
+    return code_corrected(coder, in_use_, p,
+                          {&models_.more_by_error[at_.error * StepModels::kUnarySteps + step],
+                           &models_.more_by_spread[at_.spread * StepModels::kUnarySteps + step],
+                           &models_.more_by_places[0][at_.places[0] * 2 * StepModels::kUnarySteps + by_step],
+                           &models_.more_by_places[1][at_.places[1] * 2 * StepModels::kUnarySteps + by_step]},
+                          models_.more_weight[step * 4 + at_.activity / 4], more);
   }
 
  private:

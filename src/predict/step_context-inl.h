@@ -8,6 +8,7 @@
 #endif
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 
 #include "predict/neighbourhood-inl.h"
@@ -25,8 +26,9 @@ struct StepContext {
   std::size_t activity;      // 0 to 15: the sizes of the steps around; the nearest two count twice
   std::size_t availability;  // of returns left and above
   std::size_t row;
-  std::size_t error;   // 0 to 15: the blend's recent error
-  std::size_t spread;  // 0 to 15: how far the proposals lie apart
+  std::size_t error;                                    // 0 to 15: the blend's recent error
+  std::size_t spread;                                   // 0 to 15: how far the proposals lie apart
+  std::array<std::size_t, StepModels::kPlaces> places;  // of two triples of proposals among the bins
 };
 
 // Of eight cells. `steps`: what was coded, clipped to +-kMostContextSteps; 0 where there is no return.
@@ -49,6 +51,22 @@ class StepContexts {
     store(has_left + has_above + has_above, availability_);
   }
 
+  // Where triples of proposals lie, in steps from the blend (lane 0), rounded, in seven places each.
+  template <std::size_t kTriples>
+  POINTREEL_INLINE void find_places(const Float8* range_m, float step_m,
+                                    const std::array<std::array<std::uint8_t, 3>, kTriples>& triples) {
+    for (std::size_t i = 0; i < kTriples; ++i) {
+      Int8 places = all_ints<8>(0);
+      for (const std::uint8_t expert : triples[i]) {
+        const Float8 steps = (1 / step_m) * (range_m[expert] - range_m[0]);
+        // Conversions truncate: halves round up where all is positive.
+        places = (shifted_left<3>(places) - places) +
+                 truncated(larger(smaller(steps, all<8>(3)), all<8>(-3)) + all<8>(3.5F));
+      }
+      store(places, places_[i]);
+    }
+  }
+
   // Of the steps left, above and above right: 0 to 124.
   static POINTREEL_INLINE Int8 signs(const SkewedPlane<std::int32_t>& steps, int step) {
     return signs(load_ints<8>(steps.at(step, -1)), load_ints<8>(steps.at(step, 0, -1)),
@@ -66,7 +84,8 @@ class StepContexts {
             static_cast<std::size_t>(availability_[cell]),
             std::min(static_cast<std::size_t>(row), StepModels::kRows - 1),
             sixteen(error_class),
-            sixteen(spread_class)};
+            sixteen(spread_class),
+            {static_cast<std::size_t>(places_[0][cell]), static_cast<std::size_t>(places_[1][cell])}};
   }
 
  private:
@@ -77,6 +96,7 @@ class StepContexts {
   static POINTREEL_INLINE Int8 times5(const Int8& a) { return shifted_left<2>(a) + a; }
 
   alignas(32) std::int32_t signs_[8], activity_[8], availability_[8];
+  alignas(32) std::int32_t places_[StepModels::kPlaces][8] = {};
 };
 
 }  // namespace HWY_NAMESPACE
