@@ -1,7 +1,6 @@
 // Predicting a bit from several contexts: in ln(p / (1 - p)), the stretch, what each says is added up, the
 // sum is squashed back to a probability, and what was added follows the gradient of the code length. In
-// floats:
-// + and * in one fixed order give the same bits everywhere.
+// floats: + and * in one fixed order give the same bits everywhere.
 
 #if defined(POINTREEL_PREDICT_BIT_MIXING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef POINTREEL_PREDICT_BIT_MIXING_INL_H_
@@ -17,7 +16,6 @@
 
 #include "base/lanes-inl.h"
 #include "entropy/bit_mixer.h"
-#include "predict/mixer_weights.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pointreel {

@@ -1,4 +1,4 @@
-// Weights with which several predictions of one bit are mixed (bit_mixing-inl.h).
+// Weights with which several predictions of one bit are mixed (max_second_stage-inl.h).
 #pragma once
 
 #include <array>
