@@ -19,7 +19,7 @@ namespace {
 
 // One position a cell of the sensor grid; those of empty cells mean nothing.
 std::vector<Point3f> positions_of_cells(const RayTable& rays, std::span<const float> range_of_cell_m,
-                                      int threads) {
+                                        int threads) {
   std::vector<Point3f> positions(range_of_cell_m.size());
   const std::size_t columns = rays.column_count();
   parallel_for(rays.row_count(), threads, [&](std::size_t row) {

@@ -73,6 +73,16 @@ TEST(ParallelFor, WakesThreadsThatFellAsleep) {
   }
 }
 
+TEST(RunBoth, CallsBoth) {
+  for (const int threads : {1, 2}) {
+    int one = 0, other = 0;
+    run_both(
+        threads, [&] { one = 1; }, [&] { other = 2; });
+    EXPECT_EQ(one, 1);
+    EXPECT_EQ(other, 2);
+  }
+}
+
 TEST(ResolveThreads, ZeroIsOnePerProcessor) {
   EXPECT_GE(resolve_threads(0), 1);
   EXPECT_EQ(resolve_threads(3), 3);
