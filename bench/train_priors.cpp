@@ -6,6 +6,7 @@
 // the priors are the mean of what it was at the ends of the bands in the second pass. Predicted frames have
 // the sweep before them as their reference, as it was decoded.
 #include <CLI/CLI.hpp>
+#include <utility>
 
 #include "predict/band_coding.h"
 #include "prior_trainer.h"
@@ -64,13 +65,10 @@ void train_all(const std::vector<TrainingDrive>& drives) {
       "// Made by bench/train_priors.\n#include \"predict/priors.h\"\n\nnamespace pointreel {{\nnamespace "
       "{{\n\n"
       "// clang-format off\n");
-  const struct {
-    const char* name;
-    CodingKind kind;
-  } kinds[] = {{"Fast", {false, Effort::fast}},
-               {"Key", {false, Effort::balanced}},
-               {"Predicted", {true, Effort::balanced}},
-               {"PredictedMax", {true, Effort::max}}};
+  const std::pair<const char*, CodingKind> kinds[] = {{"Fast", {false, Effort::fast}},
+                                                      {"Key", {false, Effort::balanced}},
+                                                      {"Predicted", {true, Effort::balanced}},
+                                                      {"PredictedMax", {true, Effort::max}}};
   for (const auto& [name, kind] : kinds) {
     for (std::size_t set = 0; set < kPriorSteps.size(); ++set) {
       const Means means = train(drives, kind, kPriorSteps[set]);

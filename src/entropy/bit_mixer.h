@@ -100,7 +100,7 @@ class CountedBit {
   static constexpr auto kRates = [] {
     std::array<std::int32_t, kMaxCount + 1> rates{};
     for (std::size_t n = 0; n < rates.size(); ++n)
-      rates[n] = static_cast<std::int32_t>(std::size_t{2 * 65536} / (2 * n + 3));
+      rates[n] = static_cast<std::int32_t>(std::size_t{2} * 65536 / (2 * n + 3));
     return rates;
   }();
 

@@ -26,7 +26,7 @@ struct QuestionModels {
 struct MaxQuestionModels {
   static constexpr std::size_t kOwn = 2;
   static constexpr std::size_t kOwnByRow = 1;  // of them, but for kMore
-  static constexpr std::size_t kTriples = 7 * 7 * 7;
+  static constexpr std::size_t kTriples = std::size_t{7} * 7 * 7;
   static constexpr std::size_t kByRow = StepModels::kRows * StepModels::kAvailabilities;
   enum Kind : std::uint8_t { kZero, kSign, kMore, kKinds };
   static constexpr std::array<std::array<std::size_t, kOwn>, kKinds> kOwnContexts = {

@@ -132,7 +132,7 @@ TEST_F(SensorPlanes, PlanesAloneAndPointsMayBeDecodedInTurns) {
     const auto planes = decoder.decode_planes({&packets[i], 1});
     return planes[0] ? planes[0]->tiles.size() : std::size_t{0};
   };
-  ASSERT_TRUE(decoder.decode({&packets[0], 1})[0]);
+  ASSERT_TRUE(decoder.decode({packets.data(), 1})[0]);
   EXPECT_EQ(tiles_of(1), expected[1]->tiles.size()) << "from the planes that decode() met";
   expect_error(decoder.decode({&packets[2], 1})[0], ErrorCode::corrupt, "reference frame 1 was not decoded");
   EXPECT_EQ(tiles_of(2), expected[2]->tiles.size());

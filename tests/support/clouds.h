@@ -70,6 +70,7 @@ inline std::vector<SimulatedSweep> simulated_drive(int frames, SensorKind sensor
   options.sensor = sensor;
   Simulator simulator(options);
   std::vector<SimulatedSweep> sweeps;
+  sweeps.reserve(static_cast<std::size_t>(frames));
   for (int i = 0; i < frames; ++i) sweeps.push_back(simulator.next_sweep());
   return sweeps;
 }

@@ -116,12 +116,14 @@ inline void check_round_trip(const std::vector<PointCloud>& sweeps, const Encode
 
 inline std::vector<PointCloud> clouds_of(const std::vector<SimulatedSweep>& sweeps) {
   std::vector<PointCloud> clouds;
+  clouds.reserve(sweeps.size());
   for (const SimulatedSweep& sweep : sweeps) clouds.push_back(sweep.cloud);
   return clouds;
 }
 
 inline std::vector<Pose> poses_of(const std::vector<SimulatedSweep>& sweeps) {
   std::vector<Pose> poses;
+  poses.reserve(sweeps.size());
   for (const SimulatedSweep& sweep : sweeps) poses.push_back(sweep.T_world_sensor);
   return poses;
 }
