@@ -34,7 +34,8 @@ struct StepModels {
   static constexpr std::size_t kActivities = 16;
   static constexpr std::size_t kSigns = 125;
   static constexpr std::size_t kAvailabilities = 4;
-  static constexpr std::size_t kPlaces = 2, kTriples = std::size_t{7} * 7 * 7;  // where triples of proposals lie
+  static constexpr std::size_t kPlaces = 2,
+                               kTriples = std::size_t{7} * 7 * 7;  // where triples of proposals lie
 
   std::array<float, kActivities * kErrors> zero_by_activity{};
   std::array<float, kErrors * kErrors> zero_by_spread{};  // of the proposals
