@@ -26,6 +26,9 @@ bool awaited_awake(const Condition& condition) {
 
 class WorkerPool {
  public:
+  WorkerPool() = default;
+  WorkerPool(const WorkerPool&) = delete;
+  WorkerPool& operator=(const WorkerPool&) = delete;
   ~WorkerPool() {
     {
       const std::lock_guard lock(mutex_);

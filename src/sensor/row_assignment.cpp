@@ -90,8 +90,8 @@ class RunMisfit {
       elevations[s] = static_cast<float>(
           height_above_row_m(model_.rows[row], polar_.rho_m[i], polar_.z_m[i]) / polar_.rho_m[i]);
     }
-    const auto middle = elevations.begin() + static_cast<std::ptrdiff_t>(count_ / 2);
-    std::nth_element(elevations.begin(), middle, elevations.begin() + static_cast<std::ptrdiff_t>(count_));
+    float* const middle = elevations.data() + count_ / 2;
+    std::nth_element(elevations.data(), middle, elevations.data() + count_);
     return std::fabs(static_cast<double>(*middle));
   }
 

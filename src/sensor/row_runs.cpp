@@ -141,8 +141,8 @@ float bend(const PolarPoints& polar, const RowRuns& runs) {
         if (polar.has_ray(i)) elevations[count++] = polar.z_m[i] / polar.rho_m[i];
       }
       if (count == 0) continue;
-      const auto middle = elevations.begin() + static_cast<std::ptrdiff_t>(count / 2);
-      std::nth_element(elevations.begin(), middle, elevations.begin() + static_cast<std::ptrdiff_t>(count));
+      float* const middle = elevations.data() + count / 2;
+      std::nth_element(elevations.data(), middle, elevations.data() + count);
       medians[half] = *middle;
     }
     sum += std::fabs(medians[0] - medians[1]);
