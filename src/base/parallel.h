@@ -35,6 +35,15 @@ void parallel_for(std::size_t count, int threads, const Task& task) {
   });
 }
 
+// Calls look_at(piece, first, last) for pieces of `points` points, on all threads.
+inline constexpr std::size_t kPiecePoints = 8192;
+template <class LookAt>
+void for_each_piece(std::size_t points, int threads, const LookAt& look_at) {
+  parallel_for((points + kPiecePoints - 1) / kPiecePoints, threads, [&](std::size_t piece) {
+    look_at(piece, piece * kPiecePoints, std::min(points, (piece + 1) * kPiecePoints));
+  });
+}
+
 // Calls both, at once where there are threads.
 template <class One, class Other>
 void run_both(int threads, const One& one, const Other& other) {

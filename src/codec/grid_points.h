@@ -21,11 +21,8 @@ std::vector<std::uint8_t> occupied_cells(std::span<const float> range_of_cell_m)
 template <class Take>
 void for_each_grid_point(std::size_t points, std::span<const std::uint32_t> strays, int threads,
                          const Take& take) {
-  constexpr std::size_t kPiece = 8192;
-  parallel_for((points + kPiece - 1) / kPiece, threads, [&](std::size_t piece) {
+  for_each_piece(points, threads, [&](std::size_t, std::size_t i, std::size_t end) {
     Take take_here = take;
-    std::size_t i = piece * kPiece;
-    const std::size_t end = std::min(points, i + kPiece);
     auto stray = std::lower_bound(strays.begin(), strays.end(), i);
     std::size_t k = i - static_cast<std::size_t>(stray - strays.begin());
     while (i < end) {

@@ -237,10 +237,9 @@ std::vector<float> column_azimuths(const SensorModel& model, const PolarPoints& 
   constexpr std::size_t kBlock = 256;
   std::vector<float> azimuths(polar.size());
   if (model.rows.empty()) return azimuths;
-  parallel_for((polar.size() + kPiecePoints - 1) / kPiecePoints, threads, [&](std::size_t piece) {
-    const std::size_t last = std::min(polar.size(), (piece + 1) * kPiecePoints);
+  for_each_piece(polar.size(), threads, [&](std::size_t, std::size_t piece_first, std::size_t last) {
     std::array<float, kBlock> alpha_rad, side_m, side_rad;
-    for (std::size_t first = piece * kPiecePoints; first < last; first += kBlock) {
+    for (std::size_t first = piece_first; first < last; first += kBlock) {
       const std::size_t count = std::min(kBlock, last - first);
       for (std::size_t k = 0; k < count; ++k) {
         const std::int16_t r = rows[first + k];

@@ -62,13 +62,11 @@ PolarPoints polar_points(const PointCloud& cloud, const std::optional<Twist>& mo
   polar.rho_m.resize(count);
   polar.azimuth_rad.resize(count);
   polar.z_m.resize(count);
-  const std::size_t pieces = (count + kPiecePoints - 1) / kPiecePoints;
-  parallel_for(pieces, threads, [&](std::size_t piece) {
-    const std::size_t last = std::min(count, (piece + 1) * kPiecePoints);
+  for_each_piece(count, threads, [&](std::size_t, std::size_t piece_first, std::size_t last) {
     // In blocks of separate coordinates, so that the loops become SIMD code.
     constexpr std::size_t kBlock = 256;
     std::array<float, kBlock> x, y, z;
-    for (std::size_t first = piece * kPiecePoints; first < last; first += kBlock) {
+    for (std::size_t first = piece_first; first < last; first += kBlock) {
       const std::size_t block = std::min(kBlock, last - first);
       for (std::size_t k = 0; k < block; ++k) {
         x[k] = cloud.positions[first + k].x;

@@ -24,6 +24,4 @@ inline constexpr float kMostRhoM = 1e5F;    // farther away float32 has no centi
 // Under the motion that the cloud was compensated for, if there is one.
 PolarPoints polar_points(const PointCloud& cloud, const std::optional<Twist>& motion, int threads);
 
-inline constexpr std::size_t kPiecePoints = 8192;
-
 }  // namespace pointreel

@@ -120,10 +120,8 @@ void measure(const SensorModel& model, const PointCloud& cloud, const PolarPoint
              const std::vector<std::int16_t>& rows, const SweepColumns& columns, const GridOptions& options,
              GriddedSweep& sweep) {
   const Measurement measurement(model, columns, options.max_deviation_m);
-  const std::size_t count = polar.size();
-  parallel_for((count + kPiecePoints - 1) / kPiecePoints, options.threads, [&](std::size_t piece) {
-    const std::size_t last = std::min(count, (piece + 1) * kPiecePoints);
-    for (std::size_t first = piece * kPiecePoints; first < last; first += Measurement::kBlock)
+  for_each_piece(polar.size(), options.threads, [&](std::size_t, std::size_t piece_first, std::size_t last) {
+    for (std::size_t first = piece_first; first < last; first += Measurement::kBlock)
       measurement.of_block(cloud, polar, rows, first, std::min(Measurement::kBlock, last - first), sweep);
   });
 }

@@ -224,9 +224,8 @@ std::vector<std::int16_t> assign_rows(const SensorModel& model, const PointCloud
 std::vector<std::int16_t> nearest_rows(const SensorModel& model, const PolarPoints& polar, int threads) {
   const NearestRow nearest(model);
   std::vector<std::int16_t> rows(polar.size(), kNoRow);
-  parallel_for((polar.size() + kPiecePoints - 1) / kPiecePoints, threads, [&](std::size_t piece) {
-    const std::size_t last = std::min(polar.size(), (piece + 1) * kPiecePoints);
-    for (std::size_t i = piece * kPiecePoints; i < last; ++i) {
+  for_each_piece(polar.size(), threads, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
       if (polar.has_ray(i)) rows[i] = nearest(polar.rho_m[i], polar.z_m[i]);
     }
   });
@@ -262,9 +261,8 @@ void settle_rows(const SensorModel& model, const PolarPoints& polar, int threads
         rows[i] = nearest(polar.rho_m[i], polar.z_m[i]);
     }
   };
-  parallel_for((rows.size() + kPiecePoints - 1) / kPiecePoints, threads, [&](std::size_t piece) {
-    const std::size_t last = std::min(rows.size(), (piece + 1) * kPiecePoints);
-    for (std::size_t first = piece * kPiecePoints; first < last; first += kBlock)
+  for_each_piece(rows.size(), threads, [&](std::size_t, std::size_t piece_first, std::size_t last) {
+    for (std::size_t first = piece_first; first < last; first += kBlock)
       settle_block(first, std::min(last, first + kBlock));
   });
 }

@@ -15,14 +15,6 @@ namespace {
 
 constexpr float kTurnRad = 2 * std::numbers::pi_v<float>;
 
-// Calls look_at(piece, first, last) for pieces of the points, on all threads.
-template <class LookAt>
-void for_each_piece(std::size_t points, int threads, const LookAt& look_at) {
-  parallel_for((points + kPiecePoints - 1) / kPiecePoints, threads, [&](std::size_t piece) {
-    look_at(piece, piece * kPiecePoints, std::min(points, (piece + 1) * kPiecePoints));
-  });
-}
-
 // Which way the sensor turns: the sign of most small steps.
 bool turns_down(const PolarPoints& polar, int threads) {
   constexpr float kSmall = 0.1F;
