@@ -52,11 +52,9 @@ class RowWalk {
         model_(model),
         order_(grid.order),
         seam_(azimuth_of_tick(grid.order.seam_tick, grid.ticks_per_turn)),
-        column_(grid.column_count() + 1),
-        azimuth_here_(grid.column_count() + 1),
-        range_here_m_(grid.column_count() + 1),
+        place_of_column_(grid.column_count()),
         place_(grid.column_count() + 1),
-        keys_(grid.column_count()) {
+        column_(grid.column_count() + 1) {
     azimuth_.reserve(grid.column_count());
     for (const std::uint32_t tick : grid.column_tick)
       azimuth_.push_back(azimuth_of_tick(tick, grid.ticks_per_turn));
@@ -64,28 +62,42 @@ class RowWalk {
 
   // As many of them as the row has.
   void list(std::uint32_t row, std::uint32_t* cells) {
-    const auto columns = static_cast<std::uint32_t>(azimuth_.size());
-    const std::uint32_t first_cell = row * columns;
-    const std::size_t taken = gather(first_cell, columns);
-    find_places(model_.rows[row], taken);
+    const auto first_cell = static_cast<std::uint32_t>(row * azimuth_.size());
+    find_places(model_.rows[row], &range_m_[first_cell]);
+    const std::size_t taken = gather(&occupied_[first_cell]);
     // In the direction of the walk they ascend but for one step back, at the seam.
-    for (std::size_t k = 0; k < taken; ++k) keys_[k] = (std::uint64_t{place_[k]} << 32) | column_[k];
-    const auto keys = std::span(keys_).first(taken);
-    begin_at_seam(keys);
-    sort_nearly_sorted(keys);
-    for (std::size_t k = 0; k < taken; ++k) cells[k] = first_cell + static_cast<std::uint32_t>(keys[k]);
+    begin_at_seam(taken);
+    sort_nearly_sorted(taken);
+    for (std::size_t k = 0; k < taken; ++k) cells[k] = first_cell + column_[k];
   }
 
  private:
-  // The row's occupied cells in the direction of the walk, as many as it returns.
-  std::size_t gather(std::uint32_t first_cell, std::uint32_t columns) {
-    const std::uint8_t* occupied = &occupied_[first_cell];
-    const float* range_m = &range_m_[first_cell];
+  // Of the row's cells, from the seam in the direction of the walk.
+  void find_places(const RowModel& laser, const float* range_m) {
+    const std::size_t columns = azimuth_.size();
+    const std::uint32_t turn = row_turn(order_.kind, laser) - seam_;
+    const std::uint32_t flip = order_.descending ? 0xffffffff : 0;
+    const std::uint32_t* azimuth = azimuth_.data();
+    std::uint32_t* place = place_of_column_.data();
+    if (order_.kind != OrderKind::row_azimuth) {
+      for (std::size_t c = 0; c < columns; ++c) place[c] = (azimuth[c] + turn) ^ flip;
+      return;
+    }
+    const float cosine = cosine_of(laser);
+    const auto side_m = static_cast<float>(laser.side_offset_m);
+    for (std::size_t c = 0; c < columns; ++c) {
+      const auto turned_by = static_cast<std::uint32_t>(turned_by_side(side_m, range_m[c] * cosine));
+      place[c] = (azimuth[c] + turn + turned_by) ^ flip;
+    }
+  }
+
+  // The occupied cells in the direction of the walk, as many as it returns.
+  std::size_t gather(const std::uint8_t* occupied) {
+    const auto columns = static_cast<std::uint32_t>(azimuth_.size());
     std::size_t taken = 0;
     const auto take = [&](std::uint32_t c) {
+      place_[taken] = place_of_column_[c];
       column_[taken] = c;
-      azimuth_here_[taken] = azimuth_[c];
-      range_here_m_[taken] = range_m[c];
       taken += occupied[c];  // branches on single cells would be mispredicted
     };
     if (order_.descending) {
@@ -96,50 +108,68 @@ class RowWalk {
     return taken;
   }
 
-  void find_places(const RowModel& laser, std::size_t count) {
-    const std::uint32_t turn = row_turn(order_.kind, laser) - seam_;
-    const std::uint32_t flip = order_.descending ? 0xffffffff : 0;
-    std::uint32_t* place = place_.data();
-    const std::uint32_t* azimuth = azimuth_here_.data();
-    if (order_.kind != OrderKind::row_azimuth) {
-      for (std::size_t k = 0; k < count; ++k) place[k] = (azimuth[k] + turn) ^ flip;
-      return;
-    }
-    const float cosine = cosine_of(laser);
-    const auto side_m = static_cast<float>(laser.side_offset_m);
-    const float* range_m = range_here_m_.data();
-    for (std::size_t k = 0; k < count; ++k) {
-      const auto turned_by = static_cast<std::uint32_t>(turned_by_side(side_m, range_m[k] * cosine));
-      place[k] = (azimuth[k] + turn + turned_by) ^ flip;
-    }
-  }
-
   // Where the place falls by more than half a turn.
-  static void begin_at_seam(std::span<std::uint64_t> keys) {
-    constexpr std::uint64_t kHalfTurn = std::uint64_t{1} << 63;
-    for (std::size_t k = 1; k < keys.size(); ++k) {
-      if (keys[k - 1] < kHalfTurn || keys[k] > keys[k - 1] - kHalfTurn) continue;
-      std::rotate(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(k), keys.end());
-      return;
-    }
+  void begin_at_seam(std::size_t count) {
+    constexpr std::uint32_t kHalfTurn = std::uint32_t{1} << 31;
+    const std::uint32_t* place = place_.data();
+    const std::size_t seam = first_step(1, count, [place](std::size_t k) {
+      return static_cast<int>(place[k - 1] >= kHalfTurn) &
+             static_cast<int>(place[k] <= place[k - 1] - kHalfTurn);
+    });
+    if (seam == count) return;
+    const auto rotate = [=](std::vector<std::uint32_t>& values) {
+      const auto begin = values.begin();
+      std::rotate(begin, begin + static_cast<std::ptrdiff_t>(seam),
+                  begin + static_cast<std::ptrdiff_t>(count));
+    };
+    rotate(place_);
+    rotate(column_);
   }
 
-  // By insertion while that is cheap, which hostile ranges may not let it be.
-  static void sort_nearly_sorted(std::span<std::uint64_t> keys) {
-    std::size_t work = 8 * keys.size();
-    for (std::size_t i = 1; i < keys.size(); ++i) {
-      const std::uint64_t inserted = keys[i];
-      std::size_t place = i;
-      for (; place > 0 && inserted < keys[place - 1]; --place) {
-        keys[place] = keys[place - 1];
-        if (--work == 0) {
-          keys[place - 1] = inserted;
-          std::sort(keys.begin(), keys.end());
-          return;
-        }
-      }
-      keys[place] = inserted;
+  // By place, then column: by insertion while that is cheap, which hostile ranges may not let it be.
+  void sort_nearly_sorted(std::size_t count) {
+    const std::uint32_t* place = place_.data();
+    const auto falls = [place](std::size_t k) { return static_cast<int>(place[k] <= place[k - 1]); };
+    std::size_t work = 8 * count;
+    for (std::size_t i = first_step(1, count, falls); i < count; i = first_step(i + 1, count, falls)) {
+      const std::size_t moved = insert(i, work);
+      if (moved == work) return sort_any(count);
+      work -= moved;
     }
+  }
+  // Cell `i` among those before it, which are sorted; by how far, at most `most`.
+  std::size_t insert(std::size_t i, std::size_t most) {
+    const std::uint64_t inserted = key(i);
+    std::size_t to = i;
+    for (; to > 0 && i - to < most && inserted < key(to - 1); --to) {
+      place_[to] = place_[to - 1];
+      column_[to] = column_[to - 1];
+    }
+    place_[to] = static_cast<std::uint32_t>(inserted >> 32);
+    column_[to] = static_cast<std::uint32_t>(inserted);
+    return i - to;
+  }
+  void sort_any(std::size_t count) {
+    std::vector<std::uint64_t> keys(count);
+    for (std::size_t k = 0; k < count; ++k) keys[k] = key(k);
+    std::sort(keys.begin(), keys.end());
+    for (std::size_t k = 0; k < count; ++k) column_[k] = static_cast<std::uint32_t>(keys[k]);
+  }
+  std::uint64_t key(std::size_t k) const { return (std::uint64_t{place_[k]} << 32) | column_[k]; }
+
+  // The first of [from, end) for which `holds` is 1; `end` if there is none. Blocks are looked at as a whole,
+  // which becomes SIMD code.
+  template <class Holds>
+  static std::size_t first_step(std::size_t from, std::size_t end, const Holds& holds) {
+    constexpr std::size_t kBlock = 64;
+    std::size_t k = from;
+    for (; k + kBlock <= end; k += kBlock) {
+      int any = 0;
+      for (std::size_t i = k; i < k + kBlock; ++i) any |= holds(i);
+      if (any != 0) break;
+    }
+    while (k < end && holds(k) == 0) ++k;
+    return std::min(k, end);
   }
 
   std::span<const std::uint8_t> occupied_;
@@ -148,11 +178,8 @@ class RowWalk {
   PointOrder order_;
   std::uint32_t seam_;
   std::vector<std::uint32_t> azimuth_;  // of each column
-  // Of the row's cells in the direction of the walk, and one to spare.
-  std::vector<std::uint32_t> column_, azimuth_here_;
-  std::vector<float> range_here_m_;
-  std::vector<std::uint32_t> place_;  // from the seam in the walk's direction
-  std::vector<std::uint64_t> keys_;
+  // Of the row: by column; of its occupied cells in the direction of the walk, and one to spare.
+  std::vector<std::uint32_t> place_of_column_, place_, column_;
 };
 
 }  // namespace pointreel
