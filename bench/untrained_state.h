@@ -25,7 +25,6 @@ inline BandState untrained(const CodingKind& kind, int rows) {
     const std::size_t experts = mixed_of(kind);
     std::fill_n(at.weight.begin(), experts, 1.F);
     std::fill_n(at.inverse_scale.begin(), experts, 5.F);
-    at.per_total_weight = 1 / static_cast<float>(experts);
   }
   state.ranges.steps.zero_weight.fill(1);
   state.ranges.steps.sign_weight.fill(1);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/raw_vector.h"
 #include "codec/corrections.h"
 #include "codec/grid_points.h"
 #include "codec/gridded_geometry.h"
@@ -22,11 +23,15 @@ namespace {
 std::vector<float> range_tolerances_m(const GriddedSweep& sweep, std::size_t cells, double max_error_m) {
   std::vector<float> tolerance_m(cells);
   const auto squared_m2 = static_cast<float>(max_error_m * max_error_m);
-  for (std::size_t i = 0; i < sweep.cell_of_point.size(); ++i) {
-    if (sweep.cell_of_point[i] < 0) continue;
+  const std::size_t points = sweep.cell_of_point.size();
+  RawVector<float> of_point_m(points);
+  for (std::size_t i = 0; i < points; ++i) {  // becomes SIMD code
     const float deviation_m = sweep.deviation_m[i];
-    tolerance_m[static_cast<std::size_t>(sweep.cell_of_point[i])] =
-        std::sqrt(std::max(0.0F, squared_m2 - deviation_m * deviation_m));
+    of_point_m[i] = std::sqrt(std::max(0.0F, squared_m2 - deviation_m * deviation_m));
+  }
+  for (std::size_t i = 0; i < points; ++i) {
+    if (sweep.cell_of_point[i] >= 0)
+      tolerance_m[static_cast<std::size_t>(sweep.cell_of_point[i])] = of_point_m[i];
   }
   return tolerance_m;
 }

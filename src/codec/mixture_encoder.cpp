@@ -49,7 +49,9 @@ class MixtureEncoder final : public Encoder::Implementation {
         estimator_(grid_options_),
         // Registration and warping would take longer than all the rest.
         temporal_(options.temporal && options.effort != Effort::fast),
-        alignment_(options.register_sweeps) {}
+        // Sparing the rest takes balanced 0.05 to 0.16 % more bits.
+        alignment_(options.register_sweeps,
+                   options.effort == Effort::max ? RegistrationSettings{} : kQuickRegistration) {}
 
   const StreamHeader& header() const override { return header_; }
 

@@ -1,5 +1,7 @@
 #include "codec/plane_section.h"
 
+#include <algorithm>
+
 #include "codec/sections.h"
 #include "planes/plane_choice.h"
 #include "planes/plane_search.h"
@@ -19,16 +21,20 @@ double plane_step_m(const PlaneSetting& setting) {
   return 0.5 * setting.max_error_m;
 }
 void count_cells(const GridImage& image, const PlaneTiles& planes, FrameStatistics& statistics) {
+  const TileGrid& tiles = planes.tiles;
   for (int row = 0; row < image.rows; ++row) {
-    const std::int32_t* plane_of_tile = &planes.plane_of_tile[planes.tiles.index(row / kTileRows, 0)];
-    for (int column = 0; column < image.columns; ++column) {
-      if (!(image.range_m[image.index(row, column)] > 0)) continue;
-      const std::int32_t plane = plane_of_tile[column / kTileColumns];
+    const float* range_m = &image.range_m[image.index(row, 0)];
+    for (int tile = 0; tile < tiles.across; ++tile) {
+      const auto returns = static_cast<std::uint32_t>(std::count_if(range_m + TileGrid::first_column(tile),
+                                                                    range_m + tiles.end_column(tile),
+                                                                    [](float range) { return range > 0; }));
+      const std::int32_t plane = planes.plane_of_tile[tiles.index(row / kTileRows, tile)];
       if (plane < 0)
-        ++statistics.unfit_cells;
+        statistics.unfit_cells += returns;
+      else if (planes.planes[static_cast<std::size_t>(plane)].reused)
+        statistics.temporal_cells += returns;
       else
-        ++(planes.planes[static_cast<std::size_t>(plane)].reused ? statistics.temporal_cells
-                                                                 : statistics.spatial_cells);
+        statistics.spatial_cells += returns;
     }
   }
 }

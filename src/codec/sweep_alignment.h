@@ -14,7 +14,8 @@ namespace pointreel {
 class SweepAlignment {
  public:
   // `registers`: false for the motion of the poses given, or without them none.
-  explicit SweepAlignment(bool registers) : registers_(registers) {}
+  SweepAlignment(bool registers, const RegistrationSettings& settings)
+      : registers_(registers), settings_(settings) {}
 
   // Takes the next sweep. Its coordinates to those of the sweep before, before motion compensation; none when
   // it `is_key`, or when the two cannot be registered. Given poses are where the search begins, else the
@@ -36,7 +37,7 @@ class SweepAlignment {
     if (!is_key && reference_) {
       std::optional<Pose> guess = motion_;
       if (T_world_reference_ && T_world_sensor) guess = T_world_reference_->inverse() * *T_world_sensor;
-      const Registration registration = register_sweeps(*reference_, current, guess);
+      const Registration registration = register_sweeps(*reference_, current, guess, settings_);
       if (registration.converged) T_ref_cur = registration.T_ref_cur;
       motion_ = T_ref_cur;
     }
@@ -48,6 +49,7 @@ class SweepAlignment {
 
  private:
   bool registers_;
+  RegistrationSettings settings_;
   std::optional<GridRays> reference_;
   std::vector<float> reference_m_;  // that it looks at
   std::optional<Pose> T_world_reference_;

@@ -74,7 +74,7 @@ SweepPlanes sweep_planes_of(std::uint32_t frame, const SensorRays& rays, const P
       piece.column = static_cast<std::uint32_t>(first_column);
       piece.cells = static_cast<std::uint32_t>((tiles.end_row(tile_row) - first_row) *
                                                (tiles.end_column(tile) - first_column));
-      const Eigen::Vector3d center_m = center_of(frame_of_tile(rays, tiles, tile_row, tile, 0, 0).at,
+      const Eigen::Vector3d center_m = center_of(frame_of_tile(rays, tiles, tile_row, tile, 0).at,
                                                  planes.planes[static_cast<std::size_t>(index)].plane);
       if (!(center_m.norm() < kFarthestM)) continue;  // beyond the plane's horizon, or of a damaged plane
       piece.center_m = center_m.cast<float>();

@@ -23,7 +23,7 @@ MovedPlanes::MovedPlanes(const SensorRays& reference_rays, const PlaneTiles& ref
     for (int tile = 0; tile < reference.tiles.across; ++tile) {
       const std::int32_t plane = reference.plane_of_tile[reference.tiles.index(tile_row, tile)];
       if (plane < 0) continue;
-      const auto at = frame_of_tile(reference_rays, reference.tiles, tile_row, tile, 0, 0).at;
+      const auto at = frame_of_tile(reference_rays, reference.tiles, tile_row, tile, 0).at;
       const auto& [nx, ny, nz] = reference.planes[static_cast<std::size_t>(plane)].plane;
       const double rho_m = (1 - nz * at.offset_m) / ((nx * at.cos + ny * at.sin) + nz * at.slope);
       const double x = rho_m * at.cos - t(0), y = rho_m * at.sin - t(1),

@@ -21,12 +21,13 @@ class Search {
   PlaneTiles run() {
     for (int tile_row = 0; tile_row < tiles().down; ++tile_row) {
       for (int tile = 0; tile < tiles().across; ++tile) {
-        std::int32_t& plane = planes_.plane_of_tile[tiles().index(tile_row, tile)];
-        plane = known_plane(tile_row, tile);
-        if (plane >= 0 || !samples_.has_returns(tile_row, tile)) continue;
+        std::int32_t* plane = &planes_.plane_of_tile[tiles().index(tile_row, tile)];
+        *plane = known_plane(tile_row, tile);
+        if (*plane >= 0 || !samples_.has_returns(tile_row, tile)) continue;
         if (const auto found = plane_for(tile_row, tile)) {
-          plane = static_cast<std::int32_t>(planes_.planes.size());
-          planes_.planes.push_back(*found);
+          std::fill_n(plane, found->held, static_cast<std::int32_t>(planes_.planes.size()));
+          planes_.planes.push_back(found->plane);
+          tile += found->held - 1;
         }
       }
     }
@@ -34,6 +35,12 @@ class Search {
   }
 
  private:
+  // A plane and how many tiles it is known to hold, side by side.
+  struct Run {
+    TilePlane plane;
+    int held;
+  };
+
   const TileGrid& tiles() const { return planes_.tiles; }
 
   // That of a neighbour which holds here, too; -1: none does.
@@ -50,22 +57,23 @@ class Search {
 
   // The plane of an earlier sweep at a new distance, if that holds half of the tiles that the plane through
   // the tile would hold, or more; else the latter.
-  std::optional<TilePlane> plane_for(int tile_row, int tile) {
+  std::optional<Run> plane_for(int tile_row, int tile) {
     const auto own = new_plane(tile_row, tile);
     const Plane* earlier = task_.earlier.at(tiles(), tile_row, tile);
     if (earlier == nullptr) return own;
     const auto reused = at_best_distance(*earlier, tile_row, tile);
     if (!reused || !own) return reused ? reused : own;
-    return 2 * run_held(*reused, tile_row, tile) >= run_held(*own, tile_row, tile) ? reused : own;
+    return 2 * reused->held >= own->held ? reused : own;
   }
-  int run_held(const TilePlane& plane, int tile_row, int tile) const {
+  // From the first tile on, the end at the latest.
+  int tiles_held(const TilePlane& plane, int tile_row, int first, int end) const {
     const PlaneTest test(samples_, plane.plane, tile_row);
     int held = 0;
-    while (tile + held < tiles().across && test.holds(tile + held)) ++held;
+    while (first + held < end && test.holds(first + held)) ++held;
     return held;
   }
-  std::optional<TilePlane> at_best_distance(const Plane& earlier, int tile_row, int tile) const {
-    const PlaneFrame frame = frame_of_tile(task_.rays, tiles(), tile_row, tile, 0, 0);
+  std::optional<Run> at_best_distance(const Plane& earlier, int tile_row, int tile) const {
+    const PlaneFrame frame = frame_of_tile(task_.rays, tiles(), tile_row, tile, 0);
     const auto level = distance_level(frame, earlier, task_.step_m);
     if (!level) return std::nullopt;
     constexpr std::int32_t kMostShift = 8;  // what errors of the motion explain
@@ -76,25 +84,24 @@ class Search {
         plane.reused = true;
         plane.levels = {shifted, 0, 0};
         plane.plane = plane_at_distance(frame, earlier, shifted, task_.step_m);
-        if (PlaneTest(samples_, plane.plane, tile_row).holds(tile)) return plane;
+        const int held = tiles_held(plane, tile_row, tile, tiles().across);
+        if (held > 0) return Run{plane, held};
       }
     }
     return std::nullopt;
   }
 
-  // The plane through a tile and what goes on from it, to the right and downwards.
-  std::optional<TilePlane> new_plane(int tile_row, int tile) {
+  // The plane through a tile and what goes on from it to the right. (Growing downwards as well, so that rows
+  // below find a plane that suits them better, takes a tenth of the time and up to 0.5 % more bits.)
+  std::optional<Run> new_plane(int tile_row, int tile) {
     PlaneMoments sums = samples_.moments(tile_row, tile);
     const Plane own = sums.fit();
     if (!PlaneTest(samples_, own, tile_row).holds(tile)) return std::nullopt;
     Plane plane = own;
     int end = tile + 1;
     grow_right(tile_row, tile, end, sums, plane);
-    const int height = grow_down(tile_row, tile, end, sums, plane);
-    if (auto coded =
-            quantised(plane, tile_row, tile, end, extent_class(end - tile), extent_class(2 * height - 1)))
-      return coded;
-    return quantised(own, tile_row, tile, tile + 1, 0, 0);
+    if (auto coded = quantised(plane, tile_row, tile, end)) return coded;
+    return quantised(own, tile_row, tile, tile + 1);
   }
 
   // Keeps the plane while it holds the next tile, and fits it anew over all of them when it does not.
@@ -116,53 +123,26 @@ class Search {
     if (PlaneTest(samples_, all, tile_row).holds(first, end)) plane = all;
   }
 
-  // Rows of tiles, the first included, most of which the plane holds; it is fitted over those, too.
-  int grow_down(int tile_row, int first, int end, PlaneMoments& sums, Plane& plane) {
-    constexpr int kMostHeight = 8;
-    int height = 1;
-    for (; height < kMostHeight && tile_row + height < tiles().down; ++height) {
-      const PlaneTest test(samples_, plane, tile_row + height);
-      PlaneMoments grown = sums;
-      int held = 0;
-      for (int tile = first; tile < end; ++tile) {
-        if (!test.holds(tile)) continue;
-        grown += samples_.moments(tile_row + height, tile);
-        ++held;
-      }
-      if (2 * held < end - first) break;
-      sums = grown;
-      const Plane refitted = sums.fit();
-      if (PlaneTest(samples_, refitted, tile_row).holds(first, end)) plane = refitted;
-    }
-    return height;
-  }
-
-  // Extents count from the middle of the first tile.
+  // The extent counts from the middle of the first tile.
   static int extent_class(int half_tiles) {
     return std::min(kExtentClasses, static_cast<int>(std::bit_width(static_cast<unsigned>(half_tiles)))) - 1;
   }
 
   // Of the eight ways to round its levels, that which holds most tiles from the first on.
-  std::optional<TilePlane> quantised(const Plane& plane, int tile_row, int first, int end, int width,
-                                     int height) const {
-    const PlaneFrame frame = frame_of_tile(task_.rays, tiles(), tile_row, first, width, height);
+  std::optional<Run> quantised(const Plane& plane, int tile_row, int first, int end) const {
+    const int width = extent_class(end - first);
+    const PlaneFrame frame = frame_of_tile(task_.rays, tiles(), tile_row, first, width);
     const auto nearest = levels_of_plane(frame, plane, task_.step_m);
     if (!nearest) return std::nullopt;
     const PlaneLevels other = second_nearest(frame, plane, *nearest);
     TilePlane coded;
     coded.width = static_cast<std::uint8_t>(width);
-    coded.height = static_cast<std::uint8_t>(height);
-    std::optional<TilePlane> best;
-    int most = 0;
-    for (int choice = 0; choice < 8 && most < end - first; ++choice) {
+    std::optional<Run> best;
+    for (int choice = 0; choice < 8 && !(best && best->held == end - first); ++choice) {
       for (std::size_t i = 0; i < 3; ++i) coded.levels[i] = (choice >> i & 1) != 0 ? other[i] : (*nearest)[i];
       coded.plane = plane_from_levels(frame, coded.levels, task_.step_m);
-      const PlaneTest test(samples_, coded.plane, tile_row);
-      int held = 0;
-      while (first + held < end && test.holds(first + held)) ++held;
-      if (held <= most) continue;
-      most = held;
-      best = coded;
+      const int held = tiles_held(coded, tile_row, first, end);
+      if (held > (best ? best->held : 0)) best = {coded, held};
     }
     return best;
   }

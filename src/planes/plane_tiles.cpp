@@ -7,8 +7,7 @@
 
 namespace pointreel {
 
-PlaneFrame frame_of_tile(const SensorRays& rays, const TileGrid& tiles, int tile_row, int tile, int width,
-                         int height) {
+PlaneFrame frame_of_tile(const SensorRays& rays, const TileGrid& tiles, int tile_row, int tile, int width) {
   const int first_row = TileGrid::first_row(tile_row), last_row = tiles.end_row(tile_row) - 1;
   const int row = (first_row + last_row) / 2;
   const int column = (TileGrid::first_column(tile) + tiles.end_column(tile) - 1) / 2;
@@ -16,7 +15,7 @@ PlaneFrame frame_of_tile(const SensorRays& rays, const TileGrid& tiles, int tile
   constexpr double kLeastHalfHeight = 1e-3;  // of a tile of one row
   const double half_tile_height =
       std::fabs(rays.row(first_row).slope - rays.row(last_row).slope) / 2 + kLeastHalfHeight;
-  return {rays.direction(row, column), half_tile_rad * (1 << width), half_tile_height * (1 << height)};
+  return {rays.direction(row, column), half_tile_rad * (1 << width), half_tile_height};
 }
 
 std::vector<float> ranges_on_planes_m(const SensorRays& rays, const PlaneTiles& planes, int threads) {

@@ -40,7 +40,7 @@ struct TileGrid {
 struct TilePlane {
   // Normal from the plane of an earlier sweep: then only levels[0] counts.
   bool reused = false;
-  std::uint8_t width = 0, height = 0;  // its half extents are 2^width half tiles wide, 2^height high
+  std::uint8_t width = 0;  // it goes on for 2^width half tiles to either side
   PlaneLevels levels{};
   Plane plane;  // as decoded
 };
@@ -73,8 +73,7 @@ struct NeighbourPlanes {
 };
 
 // The frame at the middle of a tile.
-PlaneFrame frame_of_tile(const SensorRays& rays, const TileGrid& tiles, int tile_row, int tile, int width,
-                         int height);
+PlaneFrame frame_of_tile(const SensorRays& rays, const TileGrid& tiles, int tile_row, int tile, int width);
 
 // Ranges of all cells on planes, 0 for the others.
 std::vector<float> ranges_on_planes_m(const SensorRays& rays, const PlaneTiles& planes, int threads);

@@ -75,8 +75,7 @@ class PlaneTilesCoder {
                   TilePlane& plane) {
     if (code_reused(planes, tile_row, tile, plane)) return;
     plane.width = static_cast<std::uint8_t>(width_.code(coder_, plane.width));
-    plane.height = static_cast<std::uint8_t>(height_.code(coder_, plane.height));
-    const PlaneFrame frame = frame_of_tile(rays_, planes.tiles, tile_row, tile, plane.width, plane.height);
+    const PlaneFrame frame = frame_of_tile(rays_, planes.tiles, tile_row, tile, plane.width);
     const PredictedLevels predicted = predict(around, planes, frame);
     for (std::size_t i = 0; i < plane.levels.size(); ++i) {
       const std::int32_t difference =
@@ -93,7 +92,7 @@ class PlaneTilesCoder {
   bool code_reused(const PlaneTiles& planes, int tile_row, int tile, TilePlane& plane) {
     const Plane* earlier = earlier_.at(planes.tiles, tile_row, tile);
     if (earlier == nullptr) return false;
-    const PlaneFrame frame = frame_of_tile(rays_, planes.tiles, tile_row, tile, 0, 0);
+    const PlaneFrame frame = frame_of_tile(rays_, planes.tiles, tile_row, tile, 0);
     const auto level = distance_level(frame, *earlier, step_m_);
     if (!level || !coder_.code(reused_, plane.reused)) return false;
     plane.reused = true;
@@ -132,7 +131,7 @@ class PlaneTilesCoder {
   std::array<std::array<AdaptiveBit, 128>, 3> goes_on_;  // by which neighbour's plane
   AdaptiveBit reused_;
   AdaptiveInteger shift_;
-  AdaptiveClass width_, height_;
+  AdaptiveClass width_;
   std::array<std::array<AdaptiveInteger, 3>, 4> level_;  // by what predicts them
 };
 

@@ -17,20 +17,19 @@ int octave(float x) {
   return static_cast<int>(std::bit_cast<std::uint32_t>(x) >> 23) - 127;
 }
 
-// Time that coding a row takes, in about 70 ns: one for each cell, for each return, and for each octave by
-// which ranges change (measured: 72, 57 and 71 ns).
+// Time that coding a row takes, but for a factor: one for each cell, for each return, and for each octave by
+// which ranges change (measured: 72, 57 and 71 ns). A quarter of the cells tells enough.
 double cost_of_row(const GridImage& image, int row, float step_m) {
-  constexpr int kMostOctaves = 8;
+  constexpr int kMostOctaves = 8, kSkip = 4;
   const float* range_m = &image.range_m[image.index(row, 0)];
-  int cost = image.columns;
-  float last_m = 0;
-  for (int column = 0; column < image.columns; ++column) {
-    const float here_m = range_m[column];
+  int cost = 0;
+  for (int column = 1; column < image.columns; column += kSkip) {
+    ++cost;
+    const float here_m = range_m[column], last_m = range_m[column - 1];
     if (!(here_m > 0)) continue;
-    cost += 1;
+    ++cost;
     if (last_m > 0)
       cost += std::min(kMostOctaves, octave(std::min(1 + std::fabs(here_m - last_m) / step_m, 1e9F)));
-    last_m = here_m;
   }
   return cost;
 }

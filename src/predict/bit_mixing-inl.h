@@ -82,9 +82,10 @@ POINTREEL_INLINE bool code_counted(Coder& coder, CountedBit& model, bool bit) {
 template <class Coder, std::size_t kTerms>
 POINTREEL_INLINE bool code_sum(Coder& coder, float known, float* const (&terms)[kTerms], float rate, bool bit,
                                float& move) {
-  float sum = known;
-  for (const float* term : terms) sum = sum + *term;
-  const Probability16 p_one = squashed(sum);
+  // `known` comes last: it is what has to be waited for.
+  float sum = *terms[0];
+  for (std::size_t i = 1; i < kTerms; ++i) sum = sum + *terms[i];
+  const Probability16 p_one = squashed(sum + known);
   bit = coder.code_with(bit, p_one);
   move = coding_error(p_one, bit) * rate;
   for (float* term : terms) *term = *term + move;

@@ -73,10 +73,10 @@ class MaxSecondStage {
                 proposed_, down);
   }
   template <class Coder>
-  POINTREEL_INLINE bool code_more(Coder& coder, bool down, std::int32_t magnitude, float p, bool more) const {
+  POINTREEL_INLINE bool code_more(Coder& coder, std::int32_t direction, std::int32_t magnitude, float p,
+                                  bool more) const {
     const auto step = static_cast<std::size_t>(magnitude - 1);
-    const auto farther =
-        proposed_ * all_ints<kMostExperts>(down ? -1 : 1) - all_ints<kMostExperts>(magnitude);
+    const auto farther = proposed_ * all_ints<kMostExperts>(direction) - all_ints<kMostExperts>(magnitude);
     return code(coder, MaxQuestionModels::kMore, p, at_.error * StepModels::kUnarySteps + step,
                 at_.spread * StepModels::kUnarySteps + step, {step * 4 + at_.activity / 4, at_.error},
                 farther, more);

@@ -49,7 +49,7 @@ class Mixture {
     // Learnt relative to the expert's recent error.
     inverse_scale_ =
         load<kExperts>(per_class.inverse_scale.data()) * load_turned<kExperts>(blended.inverse_scale, cell);
-    per_total_weight_ = per_class.per_total_weight;
+    per_total_weight_ = 1 / sum(weight_);
   }
 
   POINTREEL_INLINE void evaluate(float x_m, Border& border) const {
@@ -63,29 +63,26 @@ class Mixture {
     border.mixed = sum(weight_ * border.signed_cdf) * per_total_weight_;
   }
 
-  // Moves weights and scales of the cell's class, as far as other cells have brought them meanwhile, towards
-  // what would have made the coded bin more likely. With p_k its probability by expert k and G+, G- at its
-  // borders:
+  // Moves weights and scales of the cell's class towards what would have made the coded bin more likely; by
+  // the gradient at those that the cell saw, so that cells of one class do not wait for each other. With p_k
+  // its probability by expert k and G+, G- at its borders:
   //   d log p / d log w_k = r_k - w_k,  r_k = w_k p_k / p
   //   d log p / d log (1/s_k) = r_k (z+ G'(z+) - z- G'(z-)) / p_k
   POINTREEL_INLINE void learn(const Border& lower, const Border& upper, const Ingredients& ingredients,
                               MixtureState& state) const {
     MixtureState::PerClass& per_class = state.classes[error_class_];
-    const Lanes old_weight = load<kExperts>(per_class.weight.data());
     const Lanes one = all<kExperts>(1);
     const Lanes p = larger(upper.signed_cdf - lower.signed_cdf, all<kExperts>(1e-9F));
     const Lanes slope = upper.slope - lower.slope;
     const Lanes steepness = larger(smaller(slope / p, one), all<kExperts>(-4));
-    const Lanes joint = old_weight * p;
+    const Lanes joint = weight_ * p;
     const Lanes responsibility = joint * all<kExperts>(1 / sum(joint));
-    const Lanes share = per_class.per_total_weight * old_weight;
-    const Lanes weight =
-        clamped(old_weight * (one + ingredients.weight_rate * (responsibility - share)), 1e-4F, 1e4F);
-    store(weight, per_class.weight.data());
-    per_class.per_total_weight = 1 / sum(weight);
-    store(clamped(load<kExperts>(per_class.inverse_scale.data()) *
-                      (one + ingredients.scale_rate * responsibility * steepness),
-                  1e-4F, 1e3F),
+    const Lanes weight_factor =
+        one + ingredients.weight_rate * (responsibility - per_total_weight_ * weight_);
+    const Lanes scale_factor = one + ingredients.scale_rate * responsibility * steepness;
+    store(clamped(load<kExperts>(per_class.weight.data()) * weight_factor, 1e-4F, 1e4F),
+          per_class.weight.data());
+    store(clamped(load<kExperts>(per_class.inverse_scale.data()) * scale_factor, 1e-4F, 1e3F),
           per_class.inverse_scale.data());
   }
 

@@ -88,11 +88,6 @@ BandState state_from_priors(const CodingKind& kind, float step_m, const Band& ba
     return state;
   }
   visit_range_state(state.ranges, kind, ranges);
-  for (MixtureState::PerClass& at : state.ranges.mixture.classes) {
-    float total = 0;
-    for (const float weight : at.weight) total += weight;
-    at.per_total_weight = 1 / total;
-  }
   return state;
 }
 

@@ -20,7 +20,6 @@ struct MixtureState {
   struct PerClass {
     std::array<float, kMostExperts> weight{};
     std::array<float, kMostExperts> inverse_scale{};  // in 1 / step
-    float per_total_weight = 1;
   };
   std::array<PerClass, kErrorClasses> classes;
 };

@@ -57,12 +57,12 @@ class Bins {
     lower = &borders_[0];
     upper = &borders_[1];
     spare = &borders_[2];
-    evaluate(-1, *lower);
-    evaluate(0, *upper);
+    evaluate(-0.5F, *lower);
+    evaluate(0.5F, *upper);
   }
-  // The border between bins `below` and below + 1.
-  POINTREEL_INLINE void evaluate(std::int32_t below, Border& border) const {
-    mixture_.evaluate(origin_m_ + (static_cast<float>(below) + 0.5F) * step_m_, border);
+  // The border `steps` from the origin.
+  POINTREEL_INLINE void evaluate(float steps, Border& border) const {
+    mixture_.evaluate(origin_m_ + steps * step_m_, border);
   }
   // The coded bin is then the one between `lower` and `upper`.
   const Mixture& mixture() const { return mixture_; }
@@ -103,9 +103,10 @@ class SecondStage {
         models_.sign_weight[at_.availability], down);
   }
   template <class Coder>
-  POINTREEL_INLINE bool code_more(Coder& coder, bool down, std::int32_t magnitude, float p, bool more) const {
+  POINTREEL_INLINE bool code_more(Coder& coder, std::int32_t direction, std::int32_t magnitude, float p,
+                                  bool more) const {
     const auto step = static_cast<std::size_t>(magnitude - 1);
-    const std::size_t by_step = (down ? StepModels::kUnarySteps : 0) + step;
+    const std::size_t by_step = (direction < 0 ? StepModels::kUnarySteps : 0) + step;
     return code_corrected(coder, in_use_, p,
                           {&models_.more_by_error[at_.error * StepModels::kUnarySteps + step],
                            &models_.more_by_spread[at_.spread * StepModels::kUnarySteps + step],
@@ -132,16 +133,19 @@ class StepCoder {
   // Codes `wanted` (ignored when decoding) and returns it. The bins' lower and upper are then the borders of
   // its bin.
   POINTREEL_INLINE std::int32_t code(std::int32_t wanted) {
-    Border*& lower = bins_.lower;
-    Border*& upper = bins_.upper;
-    if (stage_.code_zero(coder_, 0.5F * (upper->mixed - lower->mixed), wanted == 0)) return 0;
-    const float tail_below = positive(1 + lower->mixed);
-    const float tail_above = positive(1 - upper->mixed);
+    const float below = bins_.lower->mixed, above = bins_.upper->mixed;
+    if (stage_.code_zero(coder_, 0.5F * (above - below), wanted == 0)) return 0;
+    const float tail_below = positive(1 + below), tail_above = positive(1 - above);
     const bool down = stage_.code_sign(coder_, tail_below / (tail_below + tail_above), wanted < 0);
     // From here on the inner border is the one nearer to the prediction; the outer one is found anew.
-    std::swap(lower, upper);
-    return down ? -code_magnitude<true>(-wanted, tail_below, upper, lower)
-                : code_magnitude<false>(wanted, tail_above, lower, upper);
+    Border* inner = down ? bins_.lower : bins_.upper;
+    Border* outer = down ? bins_.upper : bins_.lower;
+    const std::int32_t direction = down ? -1 : 1;
+    const std::int32_t magnitude =
+        code_magnitude(direction, wanted * direction, down ? tail_below : tail_above, inner, outer);
+    bins_.lower = down ? outer : inner;
+    bins_.upper = down ? inner : outer;
+    return magnitude * direction;
   }
 
  private:
@@ -149,36 +153,37 @@ class StepCoder {
   static constexpr std::int32_t kMostSteps = 1 << 26;
 
   // Twice the probability of larger magnitudes than this; its far border is evaluated into `outer`.
-  template <bool kDown>
-  POINTREEL_INLINE float tail_beyond(std::int32_t magnitude, Border& outer) const {
-    bins_.evaluate(kDown ? -magnitude - 1 : magnitude, outer);
-    return positive(kDown ? 1 + outer.mixed : 1 - outer.mixed);
+  POINTREEL_INLINE float tail_beyond(std::int32_t direction, std::int32_t magnitude, Border& outer) const {
+    const auto side = static_cast<float>(direction);
+    bins_.evaluate(side * (static_cast<float>(magnitude) + 0.5F), outer);
+    return positive(1 - side * outer.mixed);
   }
 
-  template <bool kDown>
-  HWY_NOINLINE std::int32_t code_magnitude(std::int32_t wanted, float tail, Border*& inner, Border*& outer) {
+  HWY_NOINLINE std::int32_t code_magnitude(std::int32_t direction, std::int32_t wanted, float tail,
+                                           Border*& inner, Border*& outer) {
     std::int32_t magnitude = 1;
     for (; magnitude <= kUnarySteps; ++magnitude) {
-      const float beyond = tail_beyond<kDown>(magnitude, *outer);
-      if (!stage_.code_more(coder_, kDown, magnitude, beyond / tail, wanted > magnitude)) return magnitude;
+      const float beyond = tail_beyond(direction, magnitude, *outer);
+      if (!stage_.code_more(coder_, direction, magnitude, beyond / tail, wanted > magnitude))
+        return magnitude;
       std::swap(inner, outer);
       tail = beyond;
     }
     // At least kUnarySteps + 1: widening intervals, then halving the one that holds it.
     std::int32_t width = 2;
-    float beyond = tail_beyond<kDown>(magnitude + width - 1, *outer);
+    float beyond = tail_beyond(direction, magnitude + width - 1, *outer);
     while (magnitude + width <= kMostSteps &&
            coder_.code_with(wanted >= magnitude + width, to_probability(beyond / tail))) {
       magnitude += width;
       std::swap(inner, outer);
       tail = beyond;
       width *= 2;
-      beyond = tail_beyond<kDown>(magnitude + width - 1, *outer);
+      beyond = tail_beyond(direction, magnitude + width - 1, *outer);
     }
     Border*& middle = bins_.spare;
     while (width > 1) {
       width /= 2;
-      const float from_middle = tail_beyond<kDown>(magnitude + width - 1, *middle);
+      const float from_middle = tail_beyond(direction, magnitude + width - 1, *middle);
       const float farther = positive(from_middle - beyond);
       const float nearer = positive(tail - from_middle);
       if (coder_.code_with(wanted >= magnitude + width, to_probability(farther / (farther + nearer)))) {

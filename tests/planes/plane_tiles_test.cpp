@@ -142,7 +142,7 @@ TEST(MovedPlanes, HoldTheSamePointsInTheOtherSweep) {
   PlaneTiles before;
   before.tiles = TileGrid(rays.rows(), rays.columns());
   before.plane_of_tile.assign(before.tiles.count(), -1);
-  before.planes.push_back({false, 0, 0, {}, plane_of(1, 0.2, 0.1, 14)});
+  before.planes.push_back({false, 0, {}, plane_of(1, 0.2, 0.1, 14)});
   Pose T_ref_cur = Pose::Identity();
   T_ref_cur.linear() = Eigen::AngleAxisd(0.1, Eigen::Vector3d(0.1, 0.2, 1).normalized()).toRotationMatrix();
   T_ref_cur.translation() << 1.2, -0.3, 0.1;
