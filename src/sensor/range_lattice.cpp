@@ -20,7 +20,7 @@ double step_m(std::size_t candidate) {
 }  // namespace
 
 void RangeLattice::add(const RowSamples& samples) {
-  constexpr std::size_t kMostPoints = 128;  // of a row and sweep
+  constexpr std::size_t kMostPoints = 64;  // of a row and sweep
   points_.resize(samples.size(), 0);
   sums_.resize(kStepsUm.size());
   for (auto& sums : sums_) sums.resize(samples.size());

@@ -18,7 +18,7 @@ struct Chosen {
 
 // Every point of thin rows, every so many of full ones.
 std::vector<Chosen> choose(const GriddedSweep& sweep, std::size_t rows) {
-  constexpr std::uint32_t kMostPoints = 256;  // of a row, about
+  constexpr std::uint32_t kMostPoints = 128;  // of a row, about
   const auto columns = static_cast<std::uint32_t>(sweep.grid.column_count());
   std::vector<std::uint32_t> points(rows, 0);
   std::vector<std::uint32_t> strides(rows, 0);
