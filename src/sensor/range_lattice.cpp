@@ -17,6 +17,24 @@ double step_m(std::size_t candidate) {
   return kStepsUm[candidate] * 1e-6;
 }
 
+using Phase = std::complex<double>;
+
+// std::complex looks for infinities first.
+Phase product(const Phase& a, const Phase& b) {
+  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+
+// Where a range lies within a step of each candidate. All of them divide 40 mm, so one sine and one cosine
+// will do: the others are powers.
+std::array<Phase, kStepsUm.size()> phases_of(double range_m) {
+  constexpr double kWholeM = 0.04;
+  const double steps = range_m / kWholeM;
+  const Phase z = std::polar(1.0, kTurn * (steps - std::floor(steps)));
+  const Phase z2 = product(z, z), z4 = product(z2, z2), z5 = product(z4, z), z8 = product(z4, z4),
+              z10 = product(z5, z5), z16 = product(z8, z8), z20 = product(z10, z10);
+  return {z4, z5, z8, z10, z16, z20, product(z20, z20)};
+}
+
 }  // namespace
 
 void RangeLattice::add(const RowSamples& samples) {
@@ -27,11 +45,8 @@ void RangeLattice::add(const RowSamples& samples) {
   for (std::size_t r = 0; r < samples.size(); ++r) {
     const std::size_t stride = samples[r].size() / kMostPoints + 1;
     for (std::size_t k = 0; k < samples[r].size(); k += stride) {
-      for (std::size_t c = 0; c < kStepsUm.size(); ++c) {
-        const double steps = samples[r][k].range_m / step_m(c);
-        const auto phase_rad = static_cast<float>(kTurn * (steps - std::floor(steps)));
-        sums_[c][r] += std::complex<double>(std::polar(1.0F, phase_rad));
-      }
+      const auto phases = phases_of(samples[r][k].range_m);
+      for (std::size_t c = 0; c < phases.size(); ++c) sums_[c][r] += phases[c];
       ++points_[r];
     }
   }
