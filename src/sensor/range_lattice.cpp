@@ -32,6 +32,8 @@ std::array<Phase, kStepsUm.size()> phases_of(double range_m) {
   const Phase z = std::polar(1.0, kTurn * (steps - std::floor(steps)));
   const Phase z2 = product(z, z), z4 = product(z2, z2), z5 = product(z4, z), z8 = product(z4, z4),
               z10 = product(z5, z5), z16 = product(z8, z8), z20 = product(z10, z10);
+  static_assert(kStepsUm == std::array<std::uint32_t, 7>{40000 / 4, 40000 / 5, 40000 / 8, 40000 / 10,
+                                                         40000 / 16, 40000 / 20, 40000 / 40});
   return {z4, z5, z8, z10, z16, z20, product(z20, z20)};
 }
 

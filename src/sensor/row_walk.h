@@ -112,7 +112,7 @@ class RowWalk {
   void begin_at_seam(std::size_t count) {
     constexpr std::uint32_t kHalfTurn = std::uint32_t{1} << 31;
     const std::uint32_t* place = place_.data();
-    const std::size_t seam = first_step(1, count, [place](std::size_t k) {
+    const std::size_t seam = first_where(1, count, [place](std::size_t k) {
       return static_cast<int>(place[k - 1] >= kHalfTurn) &
              static_cast<int>(place[k] <= place[k - 1] - kHalfTurn);
     });
@@ -131,7 +131,7 @@ class RowWalk {
     const std::uint32_t* place = place_.data();
     const auto falls = [place](std::size_t k) { return static_cast<int>(place[k] <= place[k - 1]); };
     std::size_t work = 8 * count;
-    for (std::size_t i = first_step(1, count, falls); i < count; i = first_step(i + 1, count, falls)) {
+    for (std::size_t i = first_where(1, count, falls); i < count; i = first_where(i + 1, count, falls)) {
       const std::size_t moved = insert(i, work);
       if (moved == work) return sort_any(count);
       work -= moved;
@@ -160,7 +160,7 @@ class RowWalk {
   // The first of [from, end) for which `holds` is 1; `end` if there is none. Blocks are looked at as a whole,
   // which becomes SIMD code.
   template <class Holds>
-  static std::size_t first_step(std::size_t from, std::size_t end, const Holds& holds) {
+  static std::size_t first_where(std::size_t from, std::size_t end, const Holds& holds) {
     constexpr std::size_t kBlock = 64;
     std::size_t k = from;
     for (; k + kBlock <= end; k += kBlock) {
