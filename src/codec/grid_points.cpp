@@ -1,10 +1,11 @@
 #include "codec/grid_points.h"
 
+#include "base/simd_loops.h"
 #include "sensor/point_order.h"
 
 namespace pointreel {
 
-std::vector<std::uint8_t> occupied_cells(std::span<const float> range_of_cell_m) {
+POINTREEL_SIMD_LOOPS std::vector<std::uint8_t> occupied_cells(std::span<const float> range_of_cell_m) {
   std::vector<std::uint8_t> occupied(range_of_cell_m.size());
   for (std::size_t cell = 0; cell < occupied.size(); ++cell)
     occupied[cell] = range_of_cell_m[cell] > 0 ? 1 : 0;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/raw_vector.h"
+#include "base/simd_loops.h"
 #include "codec/corrections.h"
 #include "codec/grid_points.h"
 #include "codec/gridded_geometry.h"
@@ -20,7 +21,8 @@ namespace pointreel {
 namespace {
 
 // By how much the range of each cell of the sensor grid may be off, given how far its point is off its ray.
-std::vector<float> range_tolerances_m(const GriddedSweep& sweep, std::size_t cells, double max_error_m) {
+POINTREEL_SIMD_LOOPS std::vector<float> range_tolerances_m(const GriddedSweep& sweep, std::size_t cells,
+                                                           double max_error_m) {
   std::vector<float> tolerance_m(cells);
   const auto squared_m2 = static_cast<float>(max_error_m * max_error_m);
   const std::size_t points = sweep.cell_of_point.size();

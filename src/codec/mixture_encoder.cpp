@@ -46,7 +46,7 @@ class MixtureEncoder final : public Encoder::Implementation {
         fields_(options.fields),
         threads_(threads),
         grid_options_{std::max(kLeastDeviationM, 2 * header.max_error_m), header.max_error_m, threads},
-        estimator_(grid_options_),
+        estimator_(grid_options_, kRefinementTurns),
         // Registration and warping would take longer than all the rest.
         temporal_(options.temporal && options.effort != Effort::fast),
         // Sparing the rest takes balanced 0.05 to 0.16 % more bits.
@@ -122,7 +122,9 @@ class MixtureEncoder final : public Encoder::Implementation {
 
  private:
   static constexpr double kLeastDeviationM = 0.05;  // of points on the grid from their rays
-  static constexpr double kMostStrays = 0.3;        // of the points; with more, the octree is cheaper
+  // A quarter of the rows a sweep: 0.4 ms in 28 sweeps, not 1.4 ms in seven.
+  static constexpr std::size_t kRefinementTurns = 4;
+  static constexpr double kMostStrays = 0.3;  // of the points; with more, the octree is cheaper
 
   // The next gridded sweep brings the model.
   bool starts_group() const { return !model_frame_ || model_age_ >= header_.group; }

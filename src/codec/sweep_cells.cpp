@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/simd_loops.h"
 #include "codec/corrections.h"
 #include "codec/error_budget.h"
 
@@ -18,7 +19,7 @@ const float* coordinates_of(const PointCloud& cloud, std::size_t first) {
 
 }  // namespace
 
-void drop_unreachable(const PointCloud& cloud, double max_error_m, GriddedSweep& sweep) {
+POINTREEL_SIMD_LOOPS void drop_unreachable(const PointCloud& cloud, double max_error_m, GriddedSweep& sweep) {
   const auto reach_m = static_cast<float>(std::min(CorrectionSteps(max_error_m).reach_m(),
                                                    max_error_m * static_cast<double>(kMostRangeSteps) / 16));
   constexpr float kNearestM = 0.01F;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/parallel.h"
+#include "base/simd_loops.h"
 #include "sensor/side_turn.h"
 
 namespace pointreel {
@@ -47,8 +48,9 @@ void take_in_neighbours(const PolarPoints& polar, const std::vector<std::int16_t
   }
 }
 
-SweepColumns columns_on_lattice(const SensorModel& model, const std::vector<std::int16_t>& rows,
-                                const std::vector<float>& azimuth_rad, bool unwrapped) {
+POINTREEL_SIMD_LOOPS SweepColumns columns_on_lattice(const SensorModel& model,
+                                                     const std::vector<std::int16_t>& rows,
+                                                     const std::vector<float>& azimuth_rad, bool unwrapped) {
   const std::uint32_t turn = model.ticks_per_turn;
   const std::uint32_t end = unwrapped ? 2 * turn : turn;
   const auto ticks_per_rad = static_cast<float>(turn / kTurn);
@@ -229,36 +231,43 @@ SweepColumns free_columns(const SensorModel& model, const PolarPoints& polar,
   return columns;
 }
 
+// Those of the points in [from, last).
+POINTREEL_SIMD_LOOPS void fill_azimuths(const SensorModel& model, const PolarPoints& polar,
+                                        const std::vector<std::int16_t>& rows, std::size_t from,
+                                        std::size_t last, std::vector<float>& azimuths) {
+  constexpr auto kTurnF = static_cast<float>(kTurn);
+  constexpr std::size_t kBlock = 256;
+  std::array<float, kBlock> alpha_rad, side_m, side_rad;
+  for (std::size_t first = from; first < last; first += kBlock) {
+    const std::size_t count = std::min(kBlock, last - first);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::int16_t r = rows[first + k];
+      const RowModel& row = model.rows[r < 0 ? 0 : static_cast<std::size_t>(r)];
+      alpha_rad[k] = static_cast<float>(row.azimuth_rad);
+      side_m[k] = static_cast<float>(row.side_offset_m);
+    }
+    const float* azimuth_rad = &polar.azimuth_rad[first];
+    const float* rho_m = &polar.rho_m[first];
+    float* column_rad = &azimuths[first];
+    side_turns(side_m.data(), rho_m, count, side_rad.data());
+    for (std::size_t k = 0; k < count; ++k) {
+      float azimuth = azimuth_rad[k] - alpha_rad[k] - side_rad[k];
+      azimuth += azimuth < 0 ? kTurnF : 0.0F;
+      azimuth += azimuth < 0 ? kTurnF : 0.0F;
+      azimuth -= azimuth >= kTurnF ? kTurnF : 0.0F;
+      column_rad[k] = azimuth < kTurnF ? azimuth : 0.0F;
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<float> column_azimuths(const SensorModel& model, const PolarPoints& polar,
                                    const std::vector<std::int16_t>& rows, int threads) {
-  constexpr auto kTurnF = static_cast<float>(kTurn);
-  constexpr std::size_t kBlock = 256;
   std::vector<float> azimuths(polar.size());
   if (model.rows.empty()) return azimuths;
-  for_each_piece(polar.size(), threads, [&](std::size_t, std::size_t piece_first, std::size_t last) {
-    std::array<float, kBlock> alpha_rad, side_m, side_rad;
-    for (std::size_t first = piece_first; first < last; first += kBlock) {
-      const std::size_t count = std::min(kBlock, last - first);
-      for (std::size_t k = 0; k < count; ++k) {
-        const std::int16_t r = rows[first + k];
-        const RowModel& row = model.rows[r < 0 ? 0 : static_cast<std::size_t>(r)];
-        alpha_rad[k] = static_cast<float>(row.azimuth_rad);
-        side_m[k] = static_cast<float>(row.side_offset_m);
-      }
-      const float* azimuth_rad = &polar.azimuth_rad[first];
-      const float* rho_m = &polar.rho_m[first];
-      float* column_rad = &azimuths[first];
-      side_turns(side_m.data(), rho_m, count, side_rad.data());
-      for (std::size_t k = 0; k < count; ++k) {
-        float azimuth = azimuth_rad[k] - alpha_rad[k] - side_rad[k];
-        azimuth += azimuth < 0 ? kTurnF : 0.0F;
-        azimuth += azimuth < 0 ? kTurnF : 0.0F;
-        azimuth -= azimuth >= kTurnF ? kTurnF : 0.0F;
-        column_rad[k] = azimuth < kTurnF ? azimuth : 0.0F;
-      }
-    }
+  for_each_piece(polar.size(), threads, [&](std::size_t, std::size_t first, std::size_t last) {
+    fill_azimuths(model, polar, rows, first, last, azimuths);
   });
   return azimuths;
 }

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "base/parallel.h"
+#include "base/simd_loops.h"
 #include "base/trigonometry.h"
 
 namespace pointreel {
@@ -14,7 +15,7 @@ namespace {
 
 // q = R(s w) p + s v, with s from the azimuth of q itself. Two rounds from the azimuth of p leave an error of
 // (v / 2 pi rho)^2 of the shift, a third removes it. Float: micrometres, 80 m away.
-void undo_motion(const Twist& twist, std::span<float> xs, std::span<float> ys, std::span<float> zs) {
+inline void undo_motion(const Twist& twist, std::span<float> xs, std::span<float> ys, std::span<float> zs) {
   const auto& w = twist.w_rad;
   const double angle = std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
   const double k = angle > 0 ? 1 / angle : 0;
@@ -54,6 +55,35 @@ void undo_motion(const Twist& twist, std::span<float> xs, std::span<float> ys, s
   }
 }
 
+// Those in [from, last), in blocks of separate coordinates.
+POINTREEL_SIMD_LOOPS void fill_piece(const PointCloud& cloud, const std::optional<Twist>& motion,
+                                     std::size_t from, std::size_t last, PolarPoints& polar) {
+  constexpr std::size_t kBlock = 256;
+  std::array<float, kBlock> x, y, z;
+  for (std::size_t first = from; first < last; first += kBlock) {
+    const std::size_t block = std::min(kBlock, last - first);
+    for (std::size_t k = 0; k < block; ++k) {
+      x[k] = cloud.positions[first + k].x;
+      y[k] = cloud.positions[first + k].y;
+      z[k] = cloud.positions[first + k].z;
+    }
+    if (motion)
+      undo_motion(*motion, std::span(x).first(block), std::span(y).first(block), std::span(z).first(block));
+    float* rhos_m = &polar.rho_m[first];
+    float* azimuths_rad = &polar.azimuth_rad[first];
+    float* zs_m = &polar.z_m[first];
+    for (std::size_t k = 0; k < block; ++k) {
+      const float rho = std::sqrt(x[k] * x[k] + y[k] * y[k]);
+      // False for NaN.
+      const bool usable = (rho >= kLeastRhoM) & (rho <= kMostRhoM) & (std::fabs(z[k]) <= kMostRhoM);
+      rhos_m[k] = usable ? rho : 0.0F;
+      zs_m[k] = usable ? z[k] : 0.0F;
+      const float azimuth = fast_atan2(y[k], x[k]);
+      azimuths_rad[k] = usable ? azimuth : 0.0F;
+    }
+  }
+}
+
 }  // namespace
 
 PolarPoints polar_points(const PointCloud& cloud, const std::optional<Twist>& motion, int threads) {
@@ -62,32 +92,8 @@ PolarPoints polar_points(const PointCloud& cloud, const std::optional<Twist>& mo
   polar.rho_m.resize(count);
   polar.azimuth_rad.resize(count);
   polar.z_m.resize(count);
-  for_each_piece(count, threads, [&](std::size_t, std::size_t piece_first, std::size_t last) {
-    // In blocks of separate coordinates, so that the loops become SIMD code.
-    constexpr std::size_t kBlock = 256;
-    std::array<float, kBlock> x, y, z;
-    for (std::size_t first = piece_first; first < last; first += kBlock) {
-      const std::size_t block = std::min(kBlock, last - first);
-      for (std::size_t k = 0; k < block; ++k) {
-        x[k] = cloud.positions[first + k].x;
-        y[k] = cloud.positions[first + k].y;
-        z[k] = cloud.positions[first + k].z;
-      }
-      if (motion)
-        undo_motion(*motion, std::span(x).first(block), std::span(y).first(block), std::span(z).first(block));
-      float* rhos_m = &polar.rho_m[first];
-      float* azimuths_rad = &polar.azimuth_rad[first];
-      float* zs_m = &polar.z_m[first];
-      for (std::size_t k = 0; k < block; ++k) {
-        const float rho = std::sqrt(x[k] * x[k] + y[k] * y[k]);
-        // False for NaN.
-        const bool usable = (rho >= kLeastRhoM) & (rho <= kMostRhoM) & (std::fabs(z[k]) <= kMostRhoM);
-        rhos_m[k] = usable ? rho : 0.0F;
-        zs_m[k] = usable ? z[k] : 0.0F;
-        const float azimuth = fast_atan2(y[k], x[k]);
-        azimuths_rad[k] = usable ? azimuth : 0.0F;
-      }
-    }
+  for_each_piece(count, threads, [&](std::size_t, std::size_t first, std::size_t last) {
+    fill_piece(cloud, motion, first, last, polar);
   });
   return polar;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/simd_loops.h"
 #include "base/trigonometry.h"
 
 namespace pointreel {
@@ -103,8 +104,8 @@ Point3f RayTable::position(std::size_t row, std::size_t column, float range_m) c
   return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
 }
 
-void RayTable::positions_of_row(std::size_t row, std::span<const float> range_m,
-                                std::span<Point3f> positions) const {
+POINTREEL_SIMD_LOOPS void RayTable::positions_of_row(std::size_t row, std::span<const float> range_m,
+                                                     std::span<Point3f> positions) const {
   const Row r = rows_[row];
   constexpr std::size_t kBlock = 64;
   std::array<float, kBlock> side_rad{}, x, y, z;

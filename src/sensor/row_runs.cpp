@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "base/simd_loops.h"
 
 namespace pointreel {
 namespace {
@@ -64,8 +65,8 @@ std::vector<std::size_t> ends_of_rays_before(const PolarPoints& polar) {
 }
 
 // Runs that start at points from `first` to before `last`. `rays_before_end`: see above.
-void split(const PolarPoints& polar, float direction, std::size_t rays_before_end, std::size_t first,
-           std::size_t last, BothSeams& both) {
+POINTREEL_SIMD_LOOPS void split(const PolarPoints& polar, float direction, std::size_t rays_before_end,
+                                std::size_t first, std::size_t last, BothSeams& both) {
   const float* azimuth_rad = polar.azimuth_rad.data();
   const float* rho_m = polar.rho_m.data();
   bool any = rays_before_end > 0;

@@ -1,6 +1,7 @@
 // A few points of each row of a projected sweep, as they lie about the rows of a model.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "pointreel/point_cloud.h"
@@ -17,7 +18,14 @@ struct RowSample {
 };
 using RowSamples = std::vector<std::vector<RowSample>>;  // per row
 
-// The sweep may have been projected with another model of the same rows.
-RowSamples take_row_samples(const SensorModel& model, const PointCloud& cloud, const GriddedSweep& sweep);
+// Every so many rows, from `first` on.
+struct RowsInTurn {
+  std::size_t first = 0, step = 1;
+};
+
+// The sweep may have been projected with another model of the same rows. Rows that it is not the turn of have
+// no samples.
+RowSamples take_row_samples(const SensorModel& model, const PointCloud& cloud, const GriddedSweep& sweep,
+                            const RowsInTurn& turn = {});
 
 }  // namespace pointreel

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "base/simd_loops.h"
 #include "base/trigonometry.h"
 #include "sensor/sensor_model.h"
 #include "sensor/sweep_grid.h"
@@ -61,7 +62,7 @@ class RowWalk {
   }
 
   // As many of them as the row has.
-  void list(std::uint32_t row, std::uint32_t* cells) {
+  POINTREEL_SIMD_LOOPS void list(std::uint32_t row, std::uint32_t* cells) {
     const auto first_cell = static_cast<std::uint32_t>(row * azimuth_.size());
     find_places(model_.rows[row], &range_m_[first_cell]);
     const std::size_t taken = gather(&occupied_[first_cell]);

@@ -256,25 +256,26 @@ bool SensorEstimator::accept(SensorModel model, const PointCloud& cloud) {
   const GriddedSweep sweep = project(model, cloud, options_);
   if (!is_usable(model, sweep)) return false;
   refinement_.emplace(std::move(model));
-  refine(cloud, sweep, false);
+  refine(cloud, sweep, {});
   return true;
 }
 
-void SensorEstimator::refine(const PointCloud& cloud, const GriddedSweep& sweep, bool rows) {
+void SensorEstimator::refine(const PointCloud& cloud, const GriddedSweep& sweep, const RowsInTurn& turn) {
   if (sweep.cell_of_point.size() != cloud.size()) return;
-  const RowSamples samples = take_row_samples(refinement_->base(), cloud, sweep);
+  const RowSamples samples = take_row_samples(refinement_->base(), cloud, sweep, turn);
   refinement_->add(samples);
   lattice_.add(samples);
-  model_ = rows ? refinement_->refined() : refinement_->base();
+  model_ = refined_ > 0 ? refinement_->refined() : refinement_->base();
   lattice_.write_to(*model_, refinement_->base());
-  ++sweeps_;
 }
 
 void SensorEstimator::add(const PointCloud& cloud, const GriddedSweep* projected) {
-  constexpr int kMostSweeps = 8;
+  constexpr std::size_t kMostSweeps = 7;  // per turn
   if (model_) {
-    if (sweeps_ < kMostSweeps)
-      refine(cloud, projected != nullptr ? *projected : project(*model_, cloud, options_), true);
+    if (refined_ == kMostSweeps * turns_) return;
+    const RowsInTurn turn = {refined_ % turns_, turns_};
+    ++refined_;
+    refine(cloud, projected != nullptr ? *projected : project(*model_, cloud, options_), turn);
     return;
   }
   const PolarPoints polar = polar_points(cloud, {}, options_.threads);

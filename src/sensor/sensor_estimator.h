@@ -7,17 +7,20 @@
 #include "sensor/projection.h"
 #include "sensor/range_lattice.h"
 #include "sensor/row_refinement.h"
+#include "sensor/row_samples.h"
 #include "sensor/sensor_model.h"
 
 namespace pointreel {
 
 class SensorEstimator {
  public:
-  explicit SensorEstimator(const GridOptions& options = {}) : options_(options) {}
+  // `turns`: each of that many sweeps refines another part of the rows, which spreads the work.
+  explicit SensorEstimator(const GridOptions& options = {}, std::size_t turns = 1)
+      : options_(options), turns_(turns) {}
 
-  // The first usable sweep gives the model, a few more refine its rows: ticks, rings and the sequence of the
-  // rows stay. `projected`: this sweep on the grid of a model given before, if at hand; it saves most of the
-  // time.
+  // The first usable sweep gives the model, seven more per turn refine its rows: ticks, rings and the
+  // sequence of the rows stay. `projected`: this sweep on the grid of a model given before, if at hand; it
+  // saves most of the time.
   void add(const PointCloud& cloud, const GriddedSweep* projected = nullptr);
 
   // None: no sweep so far comes from a sensor whose rows and columns can be told.
@@ -25,13 +28,14 @@ class SensorEstimator {
 
  private:
   bool accept(SensorModel model, const PointCloud& cloud);
-  void refine(const PointCloud& cloud, const GriddedSweep& sweep, bool rows);
+  void refine(const PointCloud& cloud, const GriddedSweep& sweep, const RowsInTurn& turn);
 
   GridOptions options_;
+  std::size_t turns_;
   std::optional<SensorModel> model_;
   std::optional<RowRefinement> refinement_;
   RangeLattice lattice_;
-  int sweeps_ = 0;  // in the model
+  std::size_t refined_ = 0;  // sweeps, but for the first
 };
 
 }  // namespace pointreel
