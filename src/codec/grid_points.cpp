@@ -5,10 +5,17 @@
 
 namespace pointreel {
 
-POINTREEL_SIMD_LOOPS std::vector<std::uint8_t> occupied_cells(std::span<const float> range_of_cell_m) {
+namespace {
+
+POINTREEL_SIMD_LOOPS void mark_occupied(const float* range_m, std::size_t cells, std::uint8_t* occupied) {
+  for (std::size_t cell = 0; cell < cells; ++cell) occupied[cell] = range_m[cell] > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> occupied_cells(std::span<const float> range_of_cell_m) {
   std::vector<std::uint8_t> occupied(range_of_cell_m.size());
-  for (std::size_t cell = 0; cell < occupied.size(); ++cell)
-    occupied[cell] = range_of_cell_m[cell] > 0 ? 1 : 0;
+  mark_occupied(range_of_cell_m.data(), occupied.size(), occupied.data());
   return occupied;
 }
 
@@ -19,8 +26,12 @@ CodedGeometry merged(const CodingGrid& coding, std::span<const std::uint32_t> ce
   geometry.rows = static_cast<std::uint32_t>(coding.rows());
   geometry.columns = static_cast<std::uint32_t>(coding.columns());
   const std::size_t count = cells.size() + strays.size();
-  geometry.cell_of_point.assign(count, -1);
-  geometry.range_m.assign(count, 0);
+  geometry.cell_of_point.resize(count);
+  geometry.range_m.resize(count);
+  for (const std::uint32_t stray : strays) {
+    geometry.cell_of_point[stray] = -1;
+    geometry.range_m[stray] = 0;
+  }
   for_each_grid_point(count, strays, threads,
                       [&, image_index = CodingGrid::Finder(coding)](std::size_t i, std::size_t k) mutable {
                         const std::size_t cell = cells[k];

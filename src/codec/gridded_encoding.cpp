@@ -85,9 +85,8 @@ EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud&
   put_quantiser(writer, quantiser);
   writer.put(image_bytes.bytes());
 
-  const auto corrections =
-      find_corrections(RayTable(model, sweep.grid), cloud, range_of_cell_m,
-                       {point_of_cell.get(), range_of_cell_m.size()}, cells, max_error_m, threads);
+  const auto corrections = find_corrections(RayTable(model, sweep.grid), cloud, range_of_cell_m,
+                                            point_of_cell, cells, max_error_m, threads);
 
   EncodedGeometry encoded;
   std::vector<Stray> strays;

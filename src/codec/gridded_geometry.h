@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/bytes.h"
+#include "base/raw_vector.h"
 #include "codec/image_sections.h"
 #include "codec/plane_section.h"
 #include "codec/sweep_cells.h"
@@ -21,9 +22,9 @@ namespace pointreel {
 
 // What both sides know of a sweep's points once its geometry is coded; one entry a point, in output order.
 struct CodedGeometry {
-  std::uint32_t rows = 0, columns = 0;      // of the coding image; 0 when there is none
-  std::vector<std::int32_t> cell_of_point;  // in the image; -1: off the grid
-  std::vector<float> range_m;               // decoded, along the ray; 0 off the grid
+  std::uint32_t rows = 0, columns = 0;    // of the coding image; 0 when there is none
+  RawVector<std::int32_t> cell_of_point;  // in the image; -1: off the grid
+  RawVector<float> range_m;               // decoded, along the ray; 0 off the grid
   bool order_kept = true;
   std::vector<std::uint32_t> bursts;  // sizes, where the output order has yet to be sorted by them
 };

@@ -99,9 +99,11 @@ class MixtureDecoder final : public Decoder::Implementation {
                              coding == SweepCoding::predicted ? &last_image_ : nullptr, reader);
     if (!geometry) return geometry.error();
     const std::size_t field_bytes = ByteReader(reader).rest().size();  // a copy: rest() takes them
-    for (const Point3f& position : geometry->positions) {
-      if (!is_finite(position)) return Error{ErrorCode::corrupt, "it holds a position that is not finite"};
-    }
+    DecodedSweep sweep;
+    sweep.frame = packet.frame;
+    sweep.cloud.positions = std::move(geometry->positions);
+    if (sweep.cloud.count_non_finite() > 0)
+      return Error{ErrorCode::corrupt, "it holds a position that is not finite"};
     auto fields = decode_fields(geometry->geometry, threads_, reader);
     if (!fields) return fields.error();
     if (!reader.rest().empty()) return Error{ErrorCode::corrupt, "bytes follow its fields"};
@@ -113,9 +115,6 @@ class MixtureDecoder final : public Decoder::Implementation {
         planes_frame_ = packet.frame;
       }
     }
-    DecodedSweep sweep;
-    sweep.frame = packet.frame;
-    sweep.cloud.positions = std::move(geometry->positions);
     sweep.cloud.fields = *std::move(fields);
     if (!geometry->geometry.bursts.empty()) redo_sort(geometry->geometry.bursts, sweep.cloud);
     sweep.order_kept = geometry->geometry.order_kept;

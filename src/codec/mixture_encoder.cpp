@@ -86,6 +86,7 @@ class MixtureEncoder final : public Encoder::Implementation {
         cells = cells_of_sweep(*model_, *gridded, header_.max_error_m, threads_);
       };
       run_both(threads_, register_sweep, find_cells);
+      estimator_.refine(cloud, gridded->grid, cells->point_of_cell);
       if (starts_group()) {
         put_model(writer, packet.statistics);
       } else {
@@ -141,7 +142,6 @@ class MixtureEncoder final : public Encoder::Implementation {
     auto sweep = project(*model_, cloud, grid_options_, last_grid_ ? &*last_grid_ : nullptr);
     const auto strays = std::count(sweep.cell_of_point.begin(), sweep.cell_of_point.end(), -1);
     if (static_cast<double>(strays) > kMostStrays * static_cast<double>(cloud.size())) return std::nullopt;
-    estimator_.add(cloud, &sweep);
     drop_unreachable(cloud, header_.max_error_m, sweep);
     last_grid_ = sweep.grid;
     return sweep;

@@ -7,6 +7,7 @@
 #include "base/simd_loops.h"
 #include "codec/corrections.h"
 #include "codec/error_budget.h"
+#include "sensor/projection.h"
 
 namespace pointreel {
 namespace {
@@ -17,11 +18,7 @@ const float* coordinates_of(const PointCloud& cloud, std::size_t first) {
   return &cloud.positions[first].x;
 }
 
-}  // namespace
-
-POINTREEL_SIMD_LOOPS void drop_unreachable(const PointCloud& cloud, double max_error_m, GriddedSweep& sweep) {
-  const auto reach_m = static_cast<float>(std::min(CorrectionSteps(max_error_m).reach_m(),
-                                                   max_error_m * static_cast<double>(kMostRangeSteps) / 16));
+POINTREEL_SIMD_LOOPS void drop_beyond(const PointCloud& cloud, float reach_m, GriddedSweep& sweep) {
   constexpr float kNearestM = 0.01F;
   // Hardly a block has one.
   constexpr std::size_t kBlock = 64;
@@ -42,16 +39,25 @@ POINTREEL_SIMD_LOOPS void drop_unreachable(const PointCloud& cloud, double max_e
   }
 }
 
+}  // namespace
+
+void drop_unreachable(const PointCloud& cloud, double max_error_m, GriddedSweep& sweep) {
+  drop_beyond(cloud,
+              static_cast<float>(std::min(CorrectionSteps(max_error_m).reach_m(),
+                                          max_error_m * static_cast<double>(kMostRangeSteps) / 16)),
+              sweep);
+}
+
 SweepCells cells_of_sweep(const SensorModel& model, const GriddedSweep& sweep, double max_error_m,
                           int threads) {
-  SweepCells cells{choose_quantiser(model, sweep, max_error_m), CodingGrid(model, sweep.grid), {}, {}};
-  std::vector<float> range_of_cell_m(cells.coding.rows() * cells.coding.columns());
-  cells.point_of_cell = std::make_unique_for_overwrite<std::uint32_t[]>(range_of_cell_m.size());
-  for (std::size_t i = 0; i < sweep.cell_of_point.size(); ++i) {
-    if (sweep.cell_of_point[i] < 0) continue;
-    const auto cell = static_cast<std::size_t>(sweep.cell_of_point[i]);
-    cells.point_of_cell[cell] = static_cast<std::uint32_t>(i);
-    range_of_cell_m[cell] = sweep.range_m[i];
+  SweepCells cells{choose_quantiser(model, sweep, max_error_m),
+                   CodingGrid(model, sweep.grid),
+                   points_of_cells(model, sweep),
+                   {}};
+  std::vector<float> range_of_cell_m(cells.point_of_cell.size());
+  for (std::size_t cell = 0; cell < range_of_cell_m.size(); ++cell) {
+    const std::uint32_t point = cells.point_of_cell[cell];
+    if (point != kNoPoint) range_of_cell_m[cell] = sweep.range_m[point];
   }
   cells.image = cells.coding.image_of(range_of_cell_m, threads);
   return cells;

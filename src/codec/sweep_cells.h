@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <vector>
 
 #include "pointreel/point_cloud.h"
 #include "predict/coding_grid.h"
@@ -16,8 +16,8 @@ namespace pointreel {
 struct SweepCells {
   RangeQuantiser quantiser;
   CodingGrid coding;
-  std::unique_ptr<std::uint32_t[]> point_of_cell;  // of the sensor grid; nothing where a cell is empty
-  GridImage image;                                 // as measured
+  std::vector<std::uint32_t> point_of_cell;  // of the sensor grid; kNoPoint where a cell is empty
+  GridImage image;                           // as measured
 };
 
 // Takes points off the grid that float32 ranges and positions cannot hold within the bound.

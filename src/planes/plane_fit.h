@@ -5,6 +5,9 @@
 // plane is met at range 1 / (n.u): 1/r is linear in n.
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 namespace pointreel {
 
 struct Plane {
@@ -24,16 +27,6 @@ class PlaneMoments {
     x_ += b * ux, y_ += b * uy, z_ += b * uz;
   }
 
-  // The same for points in the sensor's coordinates; `counts`: 1 or 0. Eigen arrays of one size.
-  template <class Array>
-  void add_points(const Array& x, const Array& y, const Array& z, const Array& counts) {
-    const Array r2 = counts * (x * x + y * y + z * z);
-    const Array wx = r2 * x, wy = r2 * y, wz = r2 * z;
-    xx_ += (wx * x).sum(), xy_ += (wx * y).sum(), xz_ += (wx * z).sum();
-    yy_ += (wy * y).sum(), yz_ += (wy * z).sum(), zz_ += (wz * z).sum();
-    x_ += wx.sum(), y_ += wy.sum(), z_ += wz.sum();
-  }
-
   PlaneMoments& operator+=(const PlaneMoments& other) {
     xx_ += other.xx_, xy_ += other.xy_, xz_ += other.xz_, yy_ += other.yy_, yz_ += other.yz_,
         zz_ += other.zz_;
@@ -46,8 +39,39 @@ class PlaneMoments {
   Plane fit() const;
 
  private:
+  template <std::size_t kLanes>
+  friend class PlaneMomentLanes;
+
   double xx_ = 0, xy_ = 0, xz_ = 0, yy_ = 0, yz_ = 0, zz_ = 0;
   double x_ = 0, y_ = 0, z_ = 0;
+};
+
+// The same for points in the sensor's coordinates, summed in lanes: loops over them become SIMD code.
+template <std::size_t kLanes>
+class PlaneMomentLanes {
+ public:
+  // `counts`: 1 or 0.
+  void add(std::size_t lane, double x_m, double y_m, double z_m, double counts) {
+    const double r2 = counts * (x_m * x_m + y_m * y_m + z_m * z_m);
+    const double wx = r2 * x_m, wy = r2 * y_m, wz = r2 * z_m;
+    xx_[lane] += wx * x_m, xy_[lane] += wx * y_m, xz_[lane] += wx * z_m;
+    yy_[lane] += wy * y_m, yz_[lane] += wy * z_m, zz_[lane] += wz * z_m;
+    x_[lane] += wx, y_[lane] += wy, z_[lane] += wz;
+  }
+  PlaneMoments total() const {
+    PlaneMoments sums;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      sums.xx_ += xx_[lane], sums.xy_ += xy_[lane], sums.xz_ += xz_[lane];
+      sums.yy_ += yy_[lane], sums.yz_ += yz_[lane], sums.zz_ += zz_[lane];
+      sums.x_ += x_[lane], sums.y_ += y_[lane], sums.z_ += z_[lane];
+    }
+    return sums;
+  }
+
+ private:
+  using Lanes = std::array<double, kLanes>;
+  Lanes xx_{}, xy_{}, xz_{}, yy_{}, yz_{}, zz_{};
+  Lanes x_{}, y_{}, z_{};
 };
 
 }  // namespace pointreel

@@ -1,5 +1,11 @@
 #include "planes/tile_samples.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/simd_loops.h"
+
 namespace pointreel {
 
 TileSamples::TileSamples(const PlaneTask& task)
@@ -36,33 +42,70 @@ TileSamples::TileSamples(const PlaneTask& task)
 
 bool TileSamples::has_returns(int tile_row, int tile) const {
   for (int row = TileGrid::first_row(tile_row); row < tiles_.end_row(tile_row); ++row) {
-    if ((row_of(rho_m_, first_cell(row) + static_cast<std::size_t>(tile * kTileColumns)) > 0).any())
-      return true;
+    const float* rho_m = &rho_m_[first_cell(row, tile)];
+    if (std::any_of(rho_m, rho_m + kTileColumns, [](float rho) { return rho > 0; })) return true;
   }
   return false;
 }
 
-const PlaneMoments& TileSamples::moments(int tile_row, int tile) {
-  using Doubles = Eigen::Array<double, kTileColumns, 1>;
-  const std::size_t index = tiles_.index(tile_row, tile);
-  PlaneMoments& sums = moments_[index];
-  if (has_moments_[index] != 0) return sums;
-  has_moments_[index] = 1;
-  sums = PlaneMoments();
-  for (int row = TileGrid::first_row(tile_row); row < tiles_.end_row(tile_row); ++row) {
-    const SensorRays::Row& r = rays_.row(row);
-    const std::size_t cell = first_cell(row) + static_cast<std::size_t>(tile * kTileColumns);
-    const Doubles rho_m = row_of(rho_m_, cell).cast<double>();
-    const Doubles column_cos = row_of(cos_, cell).cast<double>(),
-                  column_sin = row_of(sin_, cell).cast<double>();
-    const Doubles cosine = column_cos * r.cos_alpha - column_sin * r.sin_alpha;
-    const Doubles sine = column_sin * r.cos_alpha + column_cos * r.sin_alpha;
-    const Doubles x_m = rho_m * cosine - r.side_offset_m * sine;
-    const Doubles y_m = rho_m * sine + r.side_offset_m * cosine;
-    const Doubles z_m = r.slope * rho_m + r.offset_m;
-    sums.add_points<Doubles>(x_m, y_m, z_m, (rho_m > 0).cast<double>());
+struct TileSamples::Loops {
+  POINTREEL_SIMD_LOOPS static bool holds(const PlaneTest& test, int tile) {
+    // Without a branch for single rows: column by column, whether any return lies outside.
+    std::array<std::int32_t, kTileColumns> outside{};
+    for (std::size_t r = 0; r < test.count_; ++r) {
+      const SensorRays::RowPlane at = test.rows_[r].plane;
+      const std::size_t first = test.rows_[r].first_cell + static_cast<std::size_t>(tile * kTileColumns);
+      const float* cosine = &test.samples_->cos_[first];
+      const float* sine = &test.samples_->sin_[first];
+      const float* rho_m = &test.samples_->rho_m_[first];
+      const float* tolerance_m = &test.samples_->tolerance_m_[first];
+      for (std::size_t c = 0; c < kTileColumns; ++c) {
+        const float denominator = at.denominator(cosine[c], sine[c]);
+        const float off = std::fabs(at.numerator(cosine[c], sine[c]) - rho_m[c] * denominator);
+        outside[c] |= off <= tolerance_m[c] * denominator ? 0 : 1;
+      }
+    }
+    std::int32_t any = 0;
+    for (const std::int32_t column : outside) any |= column;
+    return any == 0;
   }
-  return sums;
+
+  POINTREEL_SIMD_LOOPS static PlaneMoments sum(const TileSamples& samples, int tile_row, int tile) {
+    PlaneMomentLanes<kTileColumns> sums;
+    for (int row = TileGrid::first_row(tile_row); row < samples.tiles_.end_row(tile_row); ++row) {
+      const SensorRays::Row r = samples.rays_.row(row);
+      const std::size_t first = samples.first_cell(row, tile);
+      for (std::size_t c = 0; c < kTileColumns; ++c) {
+        const double rho_m = samples.rho_m_[first + c];
+        const double column_cos = samples.cos_[first + c], column_sin = samples.sin_[first + c];
+        const double cosine = column_cos * r.cos_alpha - column_sin * r.sin_alpha;
+        const double sine = column_sin * r.cos_alpha + column_cos * r.sin_alpha;
+        sums.add(c, rho_m * cosine - r.side_offset_m * sine, rho_m * sine + r.side_offset_m * cosine,
+                 r.slope * rho_m + r.offset_m, rho_m > 0 ? 1.0 : 0.0);
+      }
+    }
+    return sums.total();
+  }
+};
+
+bool TileSamples::PlaneTest::holds(int tile) const {
+  return Loops::holds(*this, tile);
+}
+
+bool TileSamples::PlaneTest::holds(int first, int end) const {
+  for (int tile = first; tile < end; ++tile) {
+    if (!holds(tile)) return false;
+  }
+  return true;
+}
+
+const PlaneMoments& TileSamples::moments(int tile_row, int tile) {
+  const std::size_t index = tiles_.index(tile_row, tile);
+  if (has_moments_[index] == 0) {
+    has_moments_[index] = 1;
+    moments_[index] = Loops::sum(*this, tile_row, tile);
+  }
+  return moments_[index];
 }
 
 }  // namespace pointreel

@@ -1,7 +1,6 @@
 // TileSamples: a sweep as the search for planes takes it, tile by tile.
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
 
@@ -11,6 +10,8 @@
 namespace pointreel {
 
 class TileSamples {
+  struct Loops;
+
  public:
   explicit TileSamples(const PlaneTask& task);
 
@@ -28,26 +29,11 @@ class TileSamples {
         rows_[count_++] = {samples.rays_.row_plane(plane, row), samples.first_cell(row)};
     }
     // All returns of the tile are within their tolerances.
-    bool holds(int tile) const {
-      for (std::size_t r = 0; r < count_; ++r) {
-        const SensorRays::RowPlane& at = rows_[r].plane;
-        const std::size_t cell = rows_[r].first_cell + static_cast<std::size_t>(tile * kTileColumns);
-        const Row cosine = row_of(samples_->cos_, cell), sine = row_of(samples_->sin_, cell);
-        const Row denominator = at.along * cosine + at.across * sine + at.up;
-        const Row numerator = at.at_zero + at.side_offset_m * (at.along * sine - at.across * cosine);
-        const Row off = (numerator - row_of(samples_->rho_m_, cell) * denominator).abs();
-        if (!(off <= row_of(samples_->tolerance_m_, cell) * denominator).all()) return false;
-      }
-      return true;
-    }
-    bool holds(int first, int end) const {
-      for (int tile = first; tile < end; ++tile) {
-        if (!holds(tile)) return false;
-      }
-      return true;
-    }
+    bool holds(int tile) const;
+    bool holds(int first, int end) const;
 
    private:
+    friend struct Loops;
     struct InRow {
       SensorRays::RowPlane plane;
       std::size_t first_cell;
@@ -58,14 +44,12 @@ class TileSamples {
   };
 
  private:
-  using Row = Eigen::Array<float, kTileColumns, 1>;
-
   // Rows are padded to whole tiles by cells without a return.
   std::size_t first_cell(int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(tiles_.across * kTileColumns);
   }
-  static Eigen::Map<const Row> row_of(const RawVector<float>& values, std::size_t cell) {
-    return Eigen::Map<const Row>(&values[cell]);
+  std::size_t first_cell(int row, int tile) const {
+    return first_cell(row) + static_cast<std::size_t>(tile * kTileColumns);
   }
 
   const SensorRays& rays_;

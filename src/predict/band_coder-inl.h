@@ -49,7 +49,7 @@ bool code_band(Coder& mask_coder, Coder& range_coder, const BandSetting& setting
     ranges.start_block(first == 0, phase_m);
     if constexpr (kPredicted) reference.load_block(*setting.reference, band.first_row + first);
     for (int step = 0; step < Wavefront::steps(columns); ++step) {
-      mask.predict(step, &reference);
+      mask.start_step();
       ranges.start_step();
       const int first_row = std::max(0, (step - columns) / kLag + (step >= columns ? 1 : 0));
       const int end_row = std::min(rows, step / kLag + 1);
@@ -74,10 +74,11 @@ bool code_band(Coder& mask_coder, Coder& range_coder, const BandSetting& setting
         for (int row = 0; row < kRows; ++row) all = all & (range_of(row) > 0);
         return all;
       };
-      if (kEffort != Effort::max && end_row - first_row == kRows && mask.are_sure() &&
+      if (kEffort != Effort::max && end_row - first_row == kRows && mask.are_sure(step, &reference) &&
           mask.code_together(mask_coder, !Coder::kDecodes && are_hits())) {
         for (int row = 0; row < kRows; ++row) take_hit(row);
       } else {
+        mask.predict(step, &reference);
         for (int row = first_row; row < end_row; ++row) {
           if (mask.code(mask_coder, static_cast<std::size_t>(row), first + row, range_of(row) > 0))
             take_hit(row);

@@ -28,19 +28,25 @@ class HitMaskModel {
     row_range_ = all_ints<8>(0);
   }
 
-  // Looks at what is known of eight cells.
-  POINTREEL_INLINE void predict(int step, const ReferencePlanes* reference) {
-    contexts_.find(planes_, row_range_, step);
-    if constexpr (kPredicted) contexts_.find_reference(planes_, ReferenceView(*reference, step), step);
-    for (std::int32_t& hit : hits_) hit = 1;  // outside the image hits are the better guess
+  // Eight cells; outside the image hits are the better guess.
+  POINTREEL_INLINE void start_step() {
+    for (std::int32_t& hit : hits_) hit = 1;
   }
 
   // The eight are coded at once where each of them is sure to be a hit, all but once in a while. True when
   // they are hits; otherwise each has to be coded.
-  POINTREEL_INLINE bool are_sure() const { return contexts_.are_sure(); }
+  POINTREEL_INLINE bool are_sure(int step, const ReferencePlanes* reference) const {
+    return HitMaskContexts::are_sure(planes_, kPredicted ? reference : nullptr, step);
+  }
   template <class Coder>
   POINTREEL_INLINE bool code_together(Coder& coder, bool hits) {
     return code_counted(coder, state_.together, hits);
+  }
+
+  // Looks at what is known of them; only needed before code().
+  POINTREEL_INLINE void predict(int step, const ReferencePlanes* reference) {
+    contexts_.find(planes_, row_range_, step);
+    if constexpr (kPredicted) contexts_.find_reference(planes_, ReferenceView(*reference, step), step);
   }
 
   // Codes the bit of one of them; a decoder passes anything and gets it. `row`: in the band.

@@ -102,9 +102,28 @@ inline constexpr auto kRunClasses = [] {
   return classes;
 }();
 
+// 1 where the warped reference has a return.
+POINTREEL_INLINE Int8 warped(const Int8& hits) {
+  return where((hits & all_ints<8>(kWarpedHit | kWarpedFilled)) > all_ints<8>(0), all_ints<8>(1));
+}
+
 // Slots of the terms, but for what run_class() and density_class() add.
 class HitMaskContexts {
  public:
+  // Whether each of eight cells is sure, which takes less than to find the slots. `reference`: nullptr where
+  // there is none.
+  POINTREEL_INLINE static bool are_sure(const HitMaskPlanes& planes, const ReferencePlanes* reference,
+                                        int step) {
+    Int8 sure = amid_hits(load_ints<8>(planes.pattern.at(step, -1)),
+                          load_ints<8>(planes.pattern.at(step, kAhead, -1)));
+    if (reference != nullptr) sure = sure & warped(ReferenceView(*reference, step).hits(0));
+    alignas(32) std::int32_t is_sure[Wavefront::kRows];
+    store(sure, is_sure);
+    std::int32_t all = 1;
+    for (const std::int32_t cell : is_sure) all &= cell;
+    return all != 0;
+  }
+
   HWY_NOINLINE void find(const HitMaskPlanes& planes, const Int8& row_range, int step) {
     const Int8 one = all_ints<8>(1);
     const Int8 here = load_ints<8>(planes.pattern.at(step, -1));
@@ -135,10 +154,7 @@ class HitMaskContexts {
           slot[HitMaskState::kEdges]);
     store(shifted_left<8>(north) | shifted_left<9>(north_east), slot[HitMaskState::kDensity]);
     store(here, pattern_);
-    // The last three of the row, and in the row above those from one column left to two right.
-    const Int8 around =
-        (here & all_ints<8>(7)) | shifted_left<3>(shifted_right<kAhead - 2>(above) & all_ints<8>(15));
-    store(where(around == all_ints<8>(127), one), sure_);
+    store(amid_hits(here, above), sure_);
     store((above & all_ints<8>(kWindowBits)) | shifted_left<kWindow>(above2 & all_ints<8>(kWindow2Bits)),
           window_);
     store(load_ints<8>(planes.column_history.at(step, 0, -1)), column_history_);
@@ -149,9 +165,6 @@ class HitMaskContexts {
     const Int8 coded = load_ints<8>(planes.pattern.at(step, -1));
     const Int8 coded_above = load_ints<8>(planes.pattern.at(step, kAhead, -1));
     const Int8 here = reference.hits(0), west = reference.hits(-1), east = reference.hits(1);
-    const auto warped = [&](const Int8& hits) HWY_ATTR {
-      return where((hits & all_ints<8>(kWarpedHit | kWarpedFilled)) > all_ints<8>(0), one);
-    };
     const auto previous = [&](const Int8& hits) HWY_ATTR { return shifted_right<2>(hits) & one; };
     static_assert(kPreviousHit == 1 << 2);
     store(where(warped(here) == one, load_ints<8>(sure_)), sure_);
@@ -173,12 +186,6 @@ class HitMaskContexts {
           slot[HitMaskState::kAgreement]);
   }
 
-  // Each of the eight.
-  POINTREEL_INLINE bool are_sure() const {
-    std::int32_t all = 1;
-    for (const std::int32_t sure : sure_) all &= sure;
-    return all != 0;
-  }
   // All around are hits, and the reference has one, too.
   POINTREEL_INLINE bool is_sure(std::size_t cell) const { return sure_[cell] != 0; }
 
@@ -204,6 +211,13 @@ class HitMaskContexts {
   alignas(32) std::int32_t slot[HitMaskState::kContexts][Wavefront::kRows];
 
  private:
+  // 1 where the last three of the row are hits, and in the row above those from one column left to two right.
+  static POINTREEL_INLINE Int8 amid_hits(const Int8& here, const Int8& above) {
+    const Int8 around =
+        (here & all_ints<8>(7)) | shifted_left<3>(shifted_right<kAhead - 2>(above) & all_ints<8>(15));
+    return where(around == all_ints<8>(127), all_ints<8>(1));
+  }
+
   // Windows of cells above: columns from -8 to kAhead and kAhead2 to the right.
   static constexpr int kAhead = Wavefront::kLag - 1, kAhead2 = 2 * Wavefront::kLag - 1;
   static constexpr int kWindow = 9 + kAhead, kWindow2 = 9 + kAhead2;

@@ -27,7 +27,7 @@ std::size_t most_columns(std::size_t rows) {
 // Points between the columns go to a neighbour that is near enough: close to the sensor, where the file's
 // rounding turns them by more than half a tick.
 void take_in_neighbours(const PolarPoints& polar, const std::vector<std::int16_t>& rows,
-                        const std::vector<float>& azimuth_rad, double near_m, SweepColumns& columns) {
+                        std::span<const float> azimuth_rad, double near_m, SweepColumns& columns) {
   if (columns.tick.empty()) return;
   const double ticks_per_rad = columns.ticks_per_turn / kTurn;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -50,11 +50,11 @@ void take_in_neighbours(const PolarPoints& polar, const std::vector<std::int16_t
 
 POINTREEL_SIMD_LOOPS SweepColumns columns_on_lattice(const SensorModel& model,
                                                      const std::vector<std::int16_t>& rows,
-                                                     const std::vector<float>& azimuth_rad, bool unwrapped) {
+                                                     std::span<const float> azimuth_rad, bool unwrapped) {
   const std::uint32_t turn = model.ticks_per_turn;
   const std::uint32_t end = unwrapped ? 2 * turn : turn;
   const auto ticks_per_rad = static_cast<float>(turn / kTurn);
-  SweepColumns columns{turn, {}, std::vector<std::int32_t>(rows.size())};
+  SweepColumns columns{turn, {}, RawVector<std::int32_t>(rows.size())};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const float azimuth = azimuth_rad[i] > 0 ? azimuth_rad[i] : 0.0F;
     columns.column_of_point[i] = static_cast<std::int32_t>(azimuth * ticks_per_rad + 0.5F);
@@ -102,7 +102,7 @@ std::uint32_t free_ticks_per_turn(const PolarPoints& polar, double max_error_m) 
 }
 
 // Half the usual distance of two neighbours in a row, estimated from the fullest row.
-double column_step_rad(const std::vector<std::int16_t>& rows, const std::vector<float>& azimuth_rad,
+double column_step_rad(const std::vector<std::int16_t>& rows, std::span<const float> azimuth_rad,
                        std::size_t row_count) {
   std::vector<std::size_t> points(row_count, 0);
   for (const std::int16_t row : rows) {
@@ -127,12 +127,11 @@ double column_step_rad(const std::vector<std::int16_t>& rows, const std::vector<
 
 // Columns on no lattice: clusters of the azimuths of all rows.
 SweepColumns free_columns(const SensorModel& model, const PolarPoints& polar,
-                          const std::vector<std::int16_t>& rows, const std::vector<float>& azimuth_rad,
+                          const std::vector<std::int16_t>& rows, std::span<const float> azimuth_rad,
                           bool unwrapped, double max_error_m) {
   constexpr double kBinsPerStep = 12;
   constexpr std::size_t kMostBins = std::size_t{1} << 21;
-  SweepColumns columns{
-      free_ticks_per_turn(polar, max_error_m), {}, std::vector<std::int32_t>(rows.size(), -1)};
+  SweepColumns columns{free_ticks_per_turn(polar, max_error_m), {}, RawVector<std::int32_t>(rows.size(), -1)};
   const double step = column_step_rad(rows, azimuth_rad, model.rows.size());
   if (step <= 0) return columns;
   const double span = unwrapped ? 2 * kTurn : kTurn;
@@ -234,7 +233,7 @@ SweepColumns free_columns(const SensorModel& model, const PolarPoints& polar,
 // Those of the points in [from, last).
 POINTREEL_SIMD_LOOPS void fill_azimuths(const SensorModel& model, const PolarPoints& polar,
                                         const std::vector<std::int16_t>& rows, std::size_t from,
-                                        std::size_t last, std::vector<float>& azimuths) {
+                                        std::size_t last, RawVector<float>& azimuths) {
   constexpr auto kTurnF = static_cast<float>(kTurn);
   constexpr std::size_t kBlock = 256;
   std::array<float, kBlock> alpha_rad, side_m, side_rad;
@@ -262,9 +261,9 @@ POINTREEL_SIMD_LOOPS void fill_azimuths(const SensorModel& model, const PolarPoi
 
 }  // namespace
 
-std::vector<float> column_azimuths(const SensorModel& model, const PolarPoints& polar,
-                                   const std::vector<std::int16_t>& rows, int threads) {
-  std::vector<float> azimuths(polar.size());
+RawVector<float> column_azimuths(const SensorModel& model, const PolarPoints& polar,
+                                 const std::vector<std::int16_t>& rows, int threads) {
+  RawVector<float> azimuths(polar.size());
   if (model.rows.empty()) return azimuths;
   for_each_piece(polar.size(), threads, [&](std::size_t, std::size_t first, std::size_t last) {
     fill_azimuths(model, polar, rows, first, last, azimuths);
@@ -273,7 +272,7 @@ std::vector<float> column_azimuths(const SensorModel& model, const PolarPoints& 
 }
 
 SweepColumns find_columns(const SensorModel& model, const PolarPoints& polar,
-                          const std::vector<std::int16_t>& rows, const std::vector<float>& azimuth_rad,
+                          const std::vector<std::int16_t>& rows, std::span<const float> azimuth_rad,
                           bool unwrapped, const GridOptions& options) {
   SweepColumns columns = model.ticks_per_turn > 0
                              ? columns_on_lattice(model, rows, azimuth_rad, unwrapped)

@@ -14,7 +14,7 @@ constexpr double kHairRad = 1e-3;
 
 }  // namespace
 
-std::optional<FiringOrder> find_firing_order(const std::vector<float>& azimuth_rad,
+std::optional<FiringOrder> find_firing_order(std::span<const float> azimuth_rad,
                                              const std::vector<std::int16_t>& rows) {
   // Rows alone tell most clouds that are not.
   std::uint32_t steps = rows.empty() || rows[0] < 0 ? 0 : 1;
@@ -67,8 +67,8 @@ std::optional<FiringOrder> find_firing_order(const std::vector<float>& azimuth_r
   return order;
 }
 
-std::vector<double> row_leads_rad(const std::vector<float>& azimuth_rad,
-                                  const std::vector<std::int16_t>& rows, std::size_t row_count) {
+std::vector<double> row_leads_rad(std::span<const float> azimuth_rad, const std::vector<std::int16_t>& rows,
+                                  std::size_t row_count) {
   // Median step to each row from the row most often before it.
   struct Step {
     std::int16_t from;

@@ -11,7 +11,7 @@ namespace {
 
 // Rows in the order in which the points of a slot come; slot_of_point < 0: none.
 std::vector<std::uint16_t> row_sequence_of(const std::vector<std::int16_t>& rows,
-                                           const std::vector<std::int32_t>& slot_of_point,
+                                           std::span<const std::int32_t> slot_of_point,
                                            std::size_t row_count) {
   // Mean rank within the slots, which is off by what is missing before a row: full slots count for more.
   std::vector<std::vector<std::int16_t>> slots;
@@ -43,7 +43,7 @@ std::vector<std::uint16_t> row_sequence_of(const std::vector<std::int16_t>& rows
 // By how many columns each row lags behind the fullest one, most often: the column that one fired last, less
 // the row's own.
 std::vector<std::int32_t> lag_of_rows(const std::vector<std::int16_t>& rows,
-                                      const std::vector<std::int32_t>& fired_column, std::size_t row_count) {
+                                      std::span<const std::int32_t> fired_column, std::size_t row_count) {
   constexpr std::int32_t kMostLag = 64;
   std::vector<std::size_t> points(row_count, 0);
   for (const std::int16_t row : rows) {
@@ -69,7 +69,7 @@ std::vector<std::int32_t> lag_of_rows(const std::vector<std::int16_t>& rows,
 }
 
 std::vector<std::int32_t> slots_of(const std::vector<std::int16_t>& rows,
-                                   const std::vector<std::int32_t>& fired_column,
+                                   std::span<const std::int32_t> fired_column,
                                    const std::vector<std::int32_t>& lags) {
   std::int32_t least = 0;
   for (const std::int32_t lag : lags) least = std::min(least, lag);
@@ -100,7 +100,7 @@ void begin_round_at_best(std::vector<std::uint16_t>& sequence, std::vector<std::
 }
 
 // Points that do not come after the point before them.
-std::size_t count_breaks(const std::vector<std::int16_t>& rows, const std::vector<std::int32_t>& slots,
+std::size_t count_breaks(const std::vector<std::int16_t>& rows, std::span<const std::int32_t> slots,
                          const std::vector<std::uint16_t>& sequence) {
   std::vector<std::int32_t> rank(sequence.size());
   for (std::size_t k = 0; k < sequence.size(); ++k) rank[sequence[k]] = static_cast<std::int32_t>(k);
@@ -119,7 +119,7 @@ std::size_t count_breaks(const std::vector<std::int16_t>& rows, const std::vecto
 }  // namespace
 
 FiringSequence find_firing_sequence(const std::vector<std::int16_t>& rows,
-                                    const std::vector<std::int32_t>& fired_column, std::size_t row_count) {
+                                    std::span<const std::int32_t> fired_column, std::size_t row_count) {
   FiringSequence plain{row_sequence_of(rows, fired_column, row_count), {}};
   auto lags = lag_of_rows(rows, fired_column, row_count);
   auto sequence = row_sequence_of(rows, slots_of(rows, fired_column, lags), row_count);

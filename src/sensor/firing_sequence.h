@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace pointreel {
@@ -15,6 +16,6 @@ struct FiringSequence {
 
 // fired_column: of each point, ascending with time; negative: none.
 FiringSequence find_firing_sequence(const std::vector<std::int16_t>& rows,
-                                    const std::vector<std::int32_t>& fired_column, std::size_t row_count);
+                                    std::span<const std::int32_t> fired_column, std::size_t row_count);
 
 }  // namespace pointreel

@@ -214,4 +214,13 @@ GriddedSweep project(const SensorModel& model, const PointCloud& cloud, const Gr
   return sweep;
 }
 
+std::vector<std::uint32_t> points_of_cells(const SensorModel& model, const GriddedSweep& sweep) {
+  std::vector<std::uint32_t> point_of_cell(model.rows.size() * sweep.grid.column_count(), kNoPoint);
+  for (std::size_t i = 0; i < sweep.cell_of_point.size(); ++i) {
+    if (sweep.cell_of_point[i] >= 0)
+      point_of_cell[static_cast<std::size_t>(sweep.cell_of_point[i])] = static_cast<std::uint32_t>(i);
+  }
+  return point_of_cell;
+}
+
 }  // namespace pointreel

@@ -104,40 +104,49 @@ Point3f RayTable::position(std::size_t row, std::size_t column, float range_m) c
   return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
 }
 
-POINTREEL_SIMD_LOOPS void RayTable::positions_of_row(std::size_t row, std::span<const float> range_m,
-                                                     std::span<Point3f> positions) const {
-  const Row r = rows_[row];
-  constexpr std::size_t kBlock = 64;
-  std::array<float, kBlock> side_rad{}, x, y, z;
-  for (std::size_t first = 0; first < range_m.size(); first += kBlock) {
-    const std::size_t count = std::min(kBlock, range_m.size() - first);
-    const float* ranges_m = &range_m[first];
-    const Column* columns = &columns_[first];
-    if (compensated_ && angle_rad_ >= kSmallTurnRad) {  // no sane sweep
-      for (std::size_t k = 0; k < count; ++k) positions[first + k] = position(row, first + k, ranges_m[k]);
-      continue;
-    }
-    if (compensated_) {
-      for (std::size_t k = 0; k < count; ++k)
-        side_rad[k] = fast_atan2(r.side_offset_m_f, ranges_m[k] * r.cos_elevation_f);
-      for (std::size_t k = 0; k < count; ++k) {
-        const Vector p = slightly_turned(
-            measured(r, columns[k], ranges_m[k]),
-            turns_from_front(columns[k].azimuth_rad + r.azimuth_rad + static_cast<double>(side_rad[k])));
-        x[k] = static_cast<float>(p.x);
-        y[k] = static_cast<float>(p.y);
-        z[k] = static_cast<float>(p.z);
+struct RayTable::Loops {
+  POINTREEL_SIMD_LOOPS static void positions_of_row(const RayTable& table, std::size_t row,
+                                                    std::span<const float> range_m,
+                                                    std::span<Point3f> positions) {
+    const Row r = table.rows_[row];
+    constexpr std::size_t kBlock = 64;
+    std::array<float, kBlock> side_rad{}, x, y, z;
+    for (std::size_t first = 0; first < range_m.size(); first += kBlock) {
+      const std::size_t count = std::min(kBlock, range_m.size() - first);
+      const float* ranges_m = &range_m[first];
+      const Column* columns = &table.columns_[first];
+      if (table.compensated_ && table.angle_rad_ >= kSmallTurnRad) {  // no sane sweep
+        for (std::size_t k = 0; k < count; ++k)
+          positions[first + k] = table.position(row, first + k, ranges_m[k]);
+        continue;
       }
-    } else {
-      for (std::size_t k = 0; k < count; ++k) {
-        const Vector p = measured(r, columns[k], ranges_m[k]);
-        x[k] = static_cast<float>(p.x);
-        y[k] = static_cast<float>(p.y);
-        z[k] = static_cast<float>(p.z);
+      if (table.compensated_) {
+        for (std::size_t k = 0; k < count; ++k)
+          side_rad[k] = fast_atan2(r.side_offset_m_f, ranges_m[k] * r.cos_elevation_f);
+        for (std::size_t k = 0; k < count; ++k) {
+          const Vector p = table.slightly_turned(
+              table.measured(r, columns[k], ranges_m[k]),
+              turns_from_front(columns[k].azimuth_rad + r.azimuth_rad + static_cast<double>(side_rad[k])));
+          x[k] = static_cast<float>(p.x);
+          y[k] = static_cast<float>(p.y);
+          z[k] = static_cast<float>(p.z);
+        }
+      } else {
+        for (std::size_t k = 0; k < count; ++k) {
+          const Vector p = table.measured(r, columns[k], ranges_m[k]);
+          x[k] = static_cast<float>(p.x);
+          y[k] = static_cast<float>(p.y);
+          z[k] = static_cast<float>(p.z);
+        }
       }
+      for (std::size_t k = 0; k < count; ++k) positions[first + k] = {x[k], y[k], z[k]};
     }
-    for (std::size_t k = 0; k < count; ++k) positions[first + k] = {x[k], y[k], z[k]};
   }
+};
+
+void RayTable::positions_of_row(std::size_t row, std::span<const float> range_m,
+                                std::span<Point3f> positions) const {
+  Loops::positions_of_row(*this, row, range_m, positions);
 }
 
 std::vector<std::int32_t> column_shift_of_row(const SensorModel& model, const SweepGrid& grid) {

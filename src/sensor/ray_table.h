@@ -38,6 +38,7 @@ class RayTable {
   struct Vector {
     double x, y, z;
   };
+  struct Loops;
   Vector measured(const Row& row, const Column& column, double range_m) const;
   Vector compensated(const Vector& q, double azimuth_rad) const;
   Vector slightly_turned(const Vector& q, double s) const;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "pointreel/point_cloud.h"
@@ -18,14 +20,14 @@ struct RowSample {
 };
 using RowSamples = std::vector<std::vector<RowSample>>;  // per row
 
-// Every so many rows, from `first` on.
+// Every so many rows, from `first` on (which is less).
 struct RowsInTurn {
   std::size_t first = 0, step = 1;
 };
 
-// The sweep may have been projected with another model of the same rows. Rows that it is not the turn of have
-// no samples.
-RowSamples take_row_samples(const SensorModel& model, const PointCloud& cloud, const GriddedSweep& sweep,
-                            const RowsInTurn& turn = {});
+// The sweep may have been projected with another model of the same rows. `point_of_cell`: as of
+// points_of_cells() (projection.h). Rows that it is not the turn of have no samples.
+RowSamples take_row_samples(const SensorModel& model, const PointCloud& cloud, const SweepGrid& grid,
+                            std::span<const std::uint32_t> point_of_cell, const RowsInTurn& turn = {});
 
 }  // namespace pointreel

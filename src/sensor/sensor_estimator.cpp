@@ -102,7 +102,7 @@ class ModelFit {
     }
   }
 
-  std::vector<float> azimuths() const { return column_azimuths(model_, polar_, row_of_point_, threads_); }
+  RawVector<float> azimuths() const { return column_azimuths(model_, polar_, row_of_point_, threads_); }
 
   void fit_lattice(bool in_firing_order) {
     const std::size_t rows = model_.rows.size();
@@ -256,26 +256,32 @@ bool SensorEstimator::accept(SensorModel model, const PointCloud& cloud) {
   const GriddedSweep sweep = project(model, cloud, options_);
   if (!is_usable(model, sweep)) return false;
   refinement_.emplace(std::move(model));
-  refine(cloud, sweep, {});
+  take_in(cloud, sweep.grid, points_of_cells(refinement_->base(), sweep), {});
   return true;
 }
 
-void SensorEstimator::refine(const PointCloud& cloud, const GriddedSweep& sweep, const RowsInTurn& turn) {
-  if (sweep.cell_of_point.size() != cloud.size()) return;
-  const RowSamples samples = take_row_samples(refinement_->base(), cloud, sweep, turn);
+void SensorEstimator::take_in(const PointCloud& cloud, const SweepGrid& grid,
+                              std::span<const std::uint32_t> point_of_cell, const RowsInTurn& turn) {
+  const RowSamples samples = take_row_samples(refinement_->base(), cloud, grid, point_of_cell, turn);
   refinement_->add(samples);
   lattice_.add(samples);
   model_ = refined_ > 0 ? refinement_->refined() : refinement_->base();
   lattice_.write_to(*model_, refinement_->base());
 }
 
-void SensorEstimator::add(const PointCloud& cloud, const GriddedSweep* projected) {
-  constexpr std::size_t kMostSweeps = 7;  // per turn
+void SensorEstimator::refine(const PointCloud& cloud, const SweepGrid& grid,
+                             std::span<const std::uint32_t> point_of_cell) {
+  if (is_settled()) return;
+  const RowsInTurn turn = {refined_ % turns_, turns_};
+  ++refined_;
+  take_in(cloud, grid, point_of_cell, turn);
+}
+
+void SensorEstimator::add(const PointCloud& cloud) {
   if (model_) {
-    if (refined_ == kMostSweeps * turns_) return;
-    const RowsInTurn turn = {refined_ % turns_, turns_};
-    ++refined_;
-    refine(cloud, projected != nullptr ? *projected : project(*model_, cloud, options_), turn);
+    if (is_settled()) return;
+    const GriddedSweep sweep = project(*model_, cloud, options_);
+    refine(cloud, sweep.grid, points_of_cells(*model_, sweep));
     return;
   }
   const PolarPoints polar = polar_points(cloud, {}, options_.threads);

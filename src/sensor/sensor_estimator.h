@@ -1,7 +1,10 @@
 // SensorEstimator: the sensor model from the sweeps themselves.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <span>
 
 #include "pointreel/point_cloud.h"
 #include "sensor/projection.h"
@@ -19,16 +22,21 @@ class SensorEstimator {
       : options_(options), turns_(turns) {}
 
   // The first usable sweep gives the model, seven more per turn refine its rows: ticks, rings and the
-  // sequence of the rows stay. `projected`: this sweep on the grid of a model given before, if at hand; it
-  // saves most of the time.
-  void add(const PointCloud& cloud, const GriddedSweep* projected = nullptr);
+  // sequence of the rows stay.
+  void add(const PointCloud& cloud);
+  // The same for a sweep that is projected already, with a model given before.
+  void refine(const PointCloud& cloud, const SweepGrid& grid, std::span<const std::uint32_t> point_of_cell);
 
   // None: no sweep so far comes from a sensor whose rows and columns can be told.
   const std::optional<SensorModel>& model() const { return model_; }
 
  private:
+  static constexpr std::size_t kRefiningSweeps = 7;  // per turn
+
+  bool is_settled() const { return refined_ == kRefiningSweeps * turns_; }
   bool accept(SensorModel model, const PointCloud& cloud);
-  void refine(const PointCloud& cloud, const GriddedSweep& sweep, const RowsInTurn& turn);
+  void take_in(const PointCloud& cloud, const SweepGrid& grid, std::span<const std::uint32_t> point_of_cell,
+               const RowsInTurn& turn);
 
   GridOptions options_;
   std::size_t turns_;

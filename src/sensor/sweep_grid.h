@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/raw_vector.h"
 #include "pointreel/point_cloud.h"
 #include "sensor/sensor_model.h"
 
@@ -68,10 +69,10 @@ enum class StrayReason : std::uint8_t {
 
 struct GriddedSweep {
   SweepGrid grid;
-  std::vector<std::int32_t> cell_of_point;  // row * column_count + column, or -1: stray
-  std::vector<float> range_m;               // along the ray from (0, 0, offset); 0 for strays
-  std::vector<float> deviation_m;           // from the nearest point of the cell's ray; 0 for strays
-  std::vector<StrayReason> stray_reason;    // per point
+  RawVector<std::int32_t> cell_of_point;  // row * column_count + column, or -1: stray
+  RawVector<float> range_m;               // along the ray from (0, 0, offset); 0 for strays
+  RawVector<float> deviation_m;           // from the nearest point of the cell's ray; 0 for strays
+  std::vector<StrayReason> stray_reason;  // per point
 };
 
 }  // namespace pointreel

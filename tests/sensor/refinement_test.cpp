@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <tuple>
 
 #include "sensor/projection.h"
 #include "sensor/ray_table.h"
@@ -53,8 +54,41 @@ TEST(Refinement, TakesASweepProjectedBefore) {
   ASSERT_TRUE(alone.model());
   const GriddedSweep grid = project(*helped.model(), sweeps[1].cloud);
   alone.add(sweeps[1].cloud);
-  helped.add(sweeps[1].cloud, &grid);
+  helped.refine(sweeps[1].cloud, grid.grid, points_of_cells(*helped.model(), grid));
   EXPECT_EQ(*alone.model(), *helped.model());
+}
+
+// With two turns each sweep teaches every other row: but for the second one, whose model is the first that
+// heeds what the first sweep said of all rows. In the end all rows are as well known as after as many sweeps
+// for each.
+TEST(Refinement, TakesTurns) {
+  const auto sweeps = simulated_drive(16);
+  SensorEstimator estimator({}, 2);
+  estimator.add(sweeps[0].cloud);
+  ASSERT_TRUE(estimator.model());
+  estimator.add(sweeps[1].cloud);
+  const SensorModel second = *estimator.model();
+  estimator.add(sweeps[2].cloud);
+  const SensorModel third = *estimator.model();
+  estimator.add(sweeps[3].cloud);
+  const SensorModel fourth = *estimator.model();
+  std::size_t changed = 0;
+  for (std::size_t r = 0; r < second.rows.size(); ++r) {
+    changed += third.rows[r] == second.rows[r] ? 0 : 1;
+    changed += fourth.rows[r] == third.rows[r] ? 0 : 1;
+    const auto& [earlier, later] = r % 2 == 0 ? std::tie(second, third) : std::tie(third, fourth);
+    EXPECT_EQ(later.rows[r], earlier.rows[r]) << r;
+  }
+  EXPECT_GT(changed, second.rows.size() / 2);
+  for (std::size_t k = 4; k < 15; ++k) estimator.add(sweeps[k].cloud);
+  const SensorModel last = *estimator.model();
+  const sim::SensorGeometry truth = sim::make_sensor_geometry(SensorKind::vlp_16, 10);
+  for (std::size_t r = 0; r < last.rows.size(); ++r) {
+    EXPECT_NEAR(last.rows[r].slope, truth.lasers[r].slope(), 2e-5);
+    EXPECT_NEAR(last.rows[r].offset_m, truth.lasers[r].vertical_offset_m(), 5e-4);
+  }
+  estimator.add(sweeps[15].cloud);
+  EXPECT_EQ(*estimator.model(), last);
 }
 
 TEST(RangeLattice, IsFoundWhereThereIsOne) {
