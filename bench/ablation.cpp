@@ -100,7 +100,7 @@ void report_all(const std::vector<TrainingDrive>& drives, float step_m) {
           {"the ranges behind edges", lanes({4, 15})},
           {"the row above (as expert)", lanes({3, 7, 10, 11})}});
   report(drives, "predicted frames", {true, Effort::balanced}, step_m,
-         {{"the three fits", lanes({1, 8, 9})},
+         {{"the lines and the step from above", lanes({1, 8, 9})},
           {"the range behind the last edge", lanes({4})},
           {"the reference's cell", lanes({5})},
           {"the reference's step from the left", lanes({7})},

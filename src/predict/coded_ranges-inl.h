@@ -14,6 +14,7 @@
 #include "predict/blend-inl.h"
 #include "predict/range_quantiser.h"
 #include "predict/range_rounding-inl.h"
+#include "predict/row_lines-inl.h"
 #include "predict/row_memory-inl.h"
 #include "predict/step_context-inl.h"
 
@@ -86,6 +87,12 @@ struct CodedRanges {
     remember_errors(proposals, range_m, proposed, step_m, step, errors);
     memory.add(range_m);
     return inverse;
+  }
+  // The same with lines that follow the rows.
+  POINTREEL_INLINE void remember(int step, RowLines& lines) {
+    const Float8 last_m = memory.last_m();
+    const Float8 inverse = remember(step);
+    lines.add(load<8>(decoded_m), inverse, last_m, Neighbourhood(planes, step).inverse_range(0, -1));
   }
 };
 

@@ -18,6 +18,12 @@ constexpr bool has_trust(const CodingKind& kind) {
   return kind.predicted && kind.effort == Effort::max;
 }
 
+// Whether lines that follow the rows stand in for local fits, which take as many instructions as all other
+// prediction.
+constexpr bool has_row_lines(const CodingKind& kind) {
+  return kind.predicted && kind.effort == Effort::balanced;
+}
+
 // Experts that predict the ranges of such a frame; effort fast has others.
 constexpr std::size_t experts_of(const CodingKind& kind) {
   return kind.effort == Effort::fast ? 0 : kind.predicted && !has_trust(kind) ? 12 : 16;

@@ -13,6 +13,7 @@
 #include "predict/local_fits-inl.h"
 #include "predict/range_state.h"
 #include "predict/reference-inl.h"
+#include "predict/row_lines-inl.h"
 #include "predict/row_memory-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -50,6 +51,12 @@ enum PredictedExpert : std::uint8_t {
   kPredictedLine2 = 13,
   kReferenceLeft = 14,
   kReferenceBelow = 15,
+};
+
+enum RowLineExpert : std::uint8_t {  // in place of the local fits, where has_row_lines()
+  kRowLine = kPlane,
+  kStepFromAbove = kLine,
+  kRowParallel = kParallel,
 };
 
 // Triples of proposals whose places among the bins are contexts of the second stage.
@@ -113,19 +120,26 @@ struct Surroundings {
   POINTREEL_INLINE Float8 mean_left() const { return or_start(where(seen(left2), 0.5F * (left + left2))); }
 };
 
-// What all frames propose. Fewer experts look at fewer cells.
-template <std::size_t kExperts>
-POINTREEL_INLINE void propose_from_around(const Neighbourhood& cells, const RowMemory& memory,
-                                          const Surroundings& around, Float8* range_m) {
-  const LocalFits fits = fit_locally < kExperts == kMostExperts ? 8 : 5 > (cells, around.start, around.above);
+// What all frames propose, but for the plane and the lines.
+POINTREEL_INLINE void propose_from_around(const RowMemory& memory, const Surroundings& around,
+                                          Float8* range_m) {
   range_m[0] = around.start;
-  range_m[kPlane] = around.if_likely(inverted(fits.plane));
-  range_m[kLine] = around.if_likely(inverted(fits.line));
-  range_m[kParallel] = around.if_likely(inverted(fits.parallel));
   range_m[kLeft] = around.start;
   range_m[kAbove] = around.or_start(around.above);
   range_m[kAboveRight] = around.or_start(around.above_right);
   range_m[kEdge] = around.or_start(memory.edge_m());
+}
+POINTREEL_INLINE void propose_fits(const Neighbourhood& cells, const Surroundings& around, Float8* range_m) {
+  const LocalFits fits = fit_locally(cells, around.start, around.above);
+  range_m[kPlane] = around.if_likely(inverted(fits.plane));
+  range_m[kLine] = around.if_likely(inverted(fits.line));
+  range_m[kParallel] = around.if_likely(inverted(fits.parallel));
+}
+POINTREEL_INLINE void propose_row_lines(const Neighbourhood& cells, const RowLines& lines,
+                                        const Surroundings& around, Float8* range_m) {
+  range_m[kRowLine] = around.if_likely(inverted(lines.line()));
+  range_m[kStepFromAbove] = around.step_from_above();
+  range_m[kRowParallel] = around.if_likely(inverted(lines.parallel(cells.inverse_range(0, -1))));
 }
 
 HWY_NOINLINE inline Proposals<kMostExperts> propose_for_key_frame(const Neighbourhood& cells,
@@ -133,7 +147,8 @@ HWY_NOINLINE inline Proposals<kMostExperts> propose_for_key_frame(const Neighbou
   const Surroundings around(cells, memory, all<8>(0));
   Proposals<kMostExperts> proposals;
   Float8* range_m = proposals.range_m;
-  propose_from_around<kMostExperts>(cells, memory, around, range_m);
+  propose_from_around(memory, around, range_m);
+  propose_fits(cells, around, range_m);
   range_m[kKeyLine2] = around.line2();
   range_m[kKeyStep] = around.step_from_above();
   range_m[kKeyAboveLeft] = around.or_start(around.above_left);
@@ -163,25 +178,32 @@ POINTREEL_INLINE Float8 mean_difference(const Neighbourhood& cells, const Refere
   return sum / count;
 }
 
-template <std::size_t kExperts>
-HWY_NOINLINE Proposals<kExperts> propose_for_predicted_frame(const Neighbourhood& cells,
-                                                             const RowMemory& memory,
-                                                             const ReferenceView& reference) {
+// `lines`: only looked at by a kind that has them.
+template <CodingKind kKind>
+HWY_NOINLINE Proposals<experts_of(kKind)> propose_for_predicted_frame(const Neighbourhood& cells,
+                                                                      const RowMemory& memory,
+                                                                      const RowLines& lines,
+                                                                      const ReferenceView& reference) {
   const Float8 here = reference.range_m(0);
   const Float8 west = reference.range_m(-1), east = reference.range_m(1);
   const Surroundings around(cells, memory, here);
   const Float8 shift = mean_difference(cells, reference);
   constexpr float kSmoothM = 0.3F;
-  Proposals<kExperts> proposals;
+  Proposals<experts_of(kKind)> proposals;
   Float8* range_m = proposals.range_m;
-  propose_from_around<kExperts>(cells, memory, around, range_m);
+  propose_from_around(memory, around, range_m);
+  if constexpr (has_row_lines(kKind)) {
+    propose_row_lines(cells, lines, around, range_m);
+  } else {
+    propose_fits(cells, around, range_m);
+  }
   range_m[kReferenceHere] = around.or_start(here);
   range_m[kReferenceLeftStep] =
       around.if_likely(where(seen(here) & seen(west) & seen(around.left), around.left + (here - west)));
   const Float8 reference_or_start = range_m[kReferenceHere];
   const auto or_here = [&](const Float8& m) HWY_ATTR { return select(seen(m), m, reference_or_start); };
   range_m[kReferenceRight] = or_here(east);
-  if constexpr (kExperts > kPredictedLeft2) {
+  if constexpr (has_trust(kKind)) {
     range_m[kPredictedLeft2] = around.or_start(around.left2);
     range_m[kPredictedLine2] = around.line2();
     range_m[kReferenceLeft] = or_here(west);

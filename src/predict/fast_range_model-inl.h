@@ -115,11 +115,7 @@ class FastRangeModel {
   POINTREEL_INLINE Float8 decoded_m() const { return load<8>(coded_.decoded_m); }
 
   // After the last of the eight: remembers them.
-  HWY_NOINLINE void remember(int step) {
-    const Float8 last_m = coded_.memory.last_m();
-    const Float8 inverse = coded_.remember(step);
-    lines_.add(decoded_m(), inverse, last_m, Neighbourhood(coded_.planes, step).inverse_range(0, -1));
-  }
+  HWY_NOINLINE void remember(int step) { coded_.remember(step, lines_); }
 
  private:
   static constexpr int kMostShift = 3;

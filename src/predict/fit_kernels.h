@@ -5,11 +5,9 @@ namespace pointreel {
 
 inline constexpr float kFitColumnsPerRow = 3;  // rows are farther apart than columns on most sensors
 
-// `kCellsAbove`: of each of the two rows above.
-template <int kCellsAbove>
 struct FitKernels {
-  static constexpr int kHere = 8, kAbove = kCellsAbove;
-  static constexpr int kFirstHere = -8;  // column of the first one seen from the cell
+  static constexpr int kHere = 8, kAbove = 8;  // cells: left, and of each of the two rows above
+  static constexpr int kFirstHere = -8;        // column of the first one seen from the cell
   static constexpr int kFirstAbove = -(kAbove / 2);
 
   float here[kHere] = {}, above[kAbove] = {}, above2[kAbove] = {};
@@ -28,7 +26,6 @@ struct FitKernels {
   }
 };
 
-template <int kCellsAbove>
-inline constexpr FitKernels<kCellsAbove> kFitKernels;
+inline constexpr FitKernels kFitKernels;
 
 }  // namespace pointreel

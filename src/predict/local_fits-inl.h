@@ -78,18 +78,16 @@ POINTREEL_INLINE Float8 plane_at_cell(const RowSums& here, const RowSums& above,
 }
 
 // `reference_m`: range of the surface, `above_m`: range of the cells above or 0.
-template <int kCellsAbove>
-HWY_NOINLINE LocalFits fit_locally(const Neighbourhood& cells, const Float8& reference_m,
-                                   const Float8& above_m) {
-  using Kernels = FitKernels<kCellsAbove>;
-  const Kernels& kernels = kFitKernels<kCellsAbove>;
+HWY_NOINLINE inline LocalFits fit_locally(const Neighbourhood& cells, const Float8& reference_m,
+                                          const Float8& above_m) {
+  const FitKernels& kernels = kFitKernels;
   const Similarity similar(reference_m);
   const Similarity similar_above(above_m);
   const Float8 inverse_reference = all<8>(1) / reference_m;
   RowSums here, above, above2;
   Float8 parallel_weight = all<8>(0), parallel_step = all<8>(0);
-  for (int i = 0; i < Kernels::kHere; ++i) {
-    const int column = Kernels::kFirstHere + i;
+  for (int i = 0; i < FitKernels::kHere; ++i) {
+    const int column = FitKernels::kFirstHere + i;
     const auto x = static_cast<float>(column);
     const Float8 inverse = cells.inverse_range(column);
     const Mask<8> counts = similar(cells.range_m(column));
@@ -99,8 +97,8 @@ HWY_NOINLINE LocalFits fit_locally(const Neighbourhood& cells, const Float8& ref
     parallel_weight = parallel_weight + both;
     parallel_step = parallel_step + both * (inverse - cells.inverse_range(column, -1));
   }
-  for (int i = 0; i < Kernels::kAbove; ++i) {
-    const int column = Kernels::kFirstAbove + i;
+  for (int i = 0; i < FitKernels::kAbove; ++i) {
+    const int column = FitKernels::kFirstAbove + i;
     const auto x = static_cast<float>(column);
     above.add(similar(cells.range_m(column, -1)), kernels.above[i], x,
               cells.inverse_range(column, -1) - inverse_reference);

@@ -57,6 +57,8 @@ HWY_NOINLINE bool code_question(Coder& coder, float p, QuestionModels& models,
 // Answers the questions about one cell, as SecondStage does.
 class MaxSecondStage {
  public:
+  static constexpr std::size_t kUnarySteps = MaxQuestionModels::kUnarySteps;
+
   // `proposed`: where the experts' proposals lie, in steps from the origin of the bins, which is one of them.
   POINTREEL_INLINE MaxSecondStage(MaxQuestionModels& models, const StepContext& at,
                                   const Ints<kMostExperts>& proposed, std::size_t origin)
@@ -77,9 +79,8 @@ class MaxSecondStage {
                                   bool more) const {
     const auto step = static_cast<std::size_t>(magnitude - 1);
     const auto farther = proposed_ * all_ints<kMostExperts>(direction) - all_ints<kMostExperts>(magnitude);
-    return code(coder, MaxQuestionModels::kMore, p, at_.error * StepModels::kUnarySteps + step,
-                at_.spread * StepModels::kUnarySteps + step, {step * 4 + at_.activity / 4, at_.error},
-                farther, more);
+    return code(coder, MaxQuestionModels::kMore, p, at_.error * kUnarySteps + step,
+                at_.spread * kUnarySteps + step, {step * 4 + at_.activity / 4, at_.error}, farther, more);
   }
 
  private:

@@ -27,16 +27,17 @@ struct MaxQuestionModels {
   static constexpr std::size_t kOwn = 2;
   static constexpr std::size_t kOwnByRow = 1;  // of them, but for kMore
   static constexpr std::size_t kTriples = std::size_t{7} * 7 * 7;
+  static constexpr std::size_t kUnarySteps = 6;
   static constexpr std::size_t kByRow = StepModels::kRows * StepModels::kAvailabilities;
   enum Kind : std::uint8_t { kZero, kSign, kMore, kKinds };
   static constexpr std::array<std::array<std::size_t, kOwn>, kKinds> kOwnContexts = {
       {{StepModels::kActivities * StepModels::kErrors, kByRow},
        {StepModels::kSigns, kByRow},
-       {StepModels::kErrors * StepModels::kUnarySteps, StepModels::kErrors* StepModels::kUnarySteps}}};
+       {StepModels::kErrors * kUnarySteps, StepModels::kErrors* kUnarySteps}}};
   static constexpr std::array<std::array<std::size_t, QuestionModels::kMixers>, kKinds> kMixerContexts = {
       {{StepModels::kActivities * StepModels::kAvailabilities, kMostExperts},
        {StepModels::kAvailabilities, kMostExperts},
-       {StepModels::kUnarySteps * 4, StepModels::kErrors}}};
+       {kUnarySteps * 4, StepModels::kErrors}}};
 
   std::array<QuestionModels, kKinds> of;
 };

@@ -41,6 +41,7 @@ class RangeModel {
   // `lattice_phase_m`: per row, where its lattice has a point.
   void start_block(bool first, const std::array<float, Wavefront::kRows>& lattice_phase_m) {
     coded_.start_block(first, lattice_phase_m);
+    lines_ = RowLines();
   }
 
   // Eight cells without returns so far.
@@ -52,7 +53,7 @@ class RangeModel {
     step_ = step;
     if constexpr (kPredicted) {
       coded_.proposals =
-          propose_for_predicted_frame<kExperts>(cells, coded_.memory, ReferenceView(*reference, step));
+          propose_for_predicted_frame<kKind>(cells, coded_.memory, lines_, ReferenceView(*reference, step));
     } else {
       coded_.proposals = propose_for_key_frame(cells, coded_.memory);
     }
@@ -125,7 +126,13 @@ class RangeModel {
   POINTREEL_INLINE Float8 decoded_m() const { return load<8>(coded_.decoded_m); }
 
   // After the last of the eight: remembers them.
-  POINTREEL_INLINE void remember(int step) { coded_.remember(step); }
+  POINTREEL_INLINE void remember(int step) {
+    if constexpr (has_row_lines(kKind)) {
+      coded_.remember(step, lines_);
+    } else {
+      coded_.remember(step);
+    }
+  }
 
  private:
   using CellMixture = std::conditional_t<has_trust(kKind), TrustedMixture, Mixture<kMixed>>;
@@ -148,6 +155,7 @@ class RangeModel {
   int columns_;
   Ingredients ingredients_;
   CodedRanges<kExperts> coded_;
+  RowLines lines_;
   BandState& state_;
 
   // Of the eight cells at hand.

@@ -27,7 +27,7 @@ struct MixtureState {
 // What the second stage has learnt about the first questions about a bin: by how much it corrects the
 // mixture's answers, in ln(p / (1 - p)).
 struct StepModels {
-  static constexpr std::size_t kUnarySteps = 6;
+  static constexpr std::size_t kUnarySteps = 3;
   static constexpr std::size_t kRows = 64;    // rows below share the last row's models
   static constexpr std::size_t kErrors = 16;  // classes of errors
   static constexpr std::size_t kActivities = 16;

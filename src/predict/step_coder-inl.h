@@ -80,6 +80,8 @@ class Bins {
 // Answers the questions about one cell: the second stage over the mixture's answers.
 class SecondStage {
  public:
+  static constexpr std::size_t kUnarySteps = StepModels::kUnarySteps;
+
   POINTREEL_INLINE SecondStage(StepModels& models, const StepContext& at, bool in_use)
       : models_(models), at_(at), in_use_(in_use) {}
 
@@ -149,7 +151,7 @@ class StepCoder {
   }
 
  private:
-  static constexpr auto kUnarySteps = static_cast<std::int32_t>(StepModels::kUnarySteps);
+  static constexpr auto kUnarySteps = static_cast<std::int32_t>(Stage::kUnarySteps);
   static constexpr std::int32_t kMostSteps = 1 << 26;
 
   // Twice the probability of larger magnitudes than this; its far border is evaluated into `outer`.
