@@ -53,7 +53,7 @@ template <class Use>
 double decode_reel(EncodedReel& reel, int threads, const Use& use) {
   ReelReader reader = require(ReelReader::open(reel.bytes, "reel in memory"));
   Decoder decoder = require(Decoder::create(reader.header(), Runtime{threads}));
-  PacketBatches batches(reader);
+  PacketBatches batches(reader, resolve_threads(threads));
   double decode_ms = 0;
   for (auto batch = batches.next(); !batch.empty(); batch = batches.next()) {
     const Stopwatch start;

@@ -19,26 +19,22 @@
 namespace pointreel {
 namespace {
 
-class MixtureDecoder final : public Decoder::Implementation {
+// Decodes groups, one after the other: a key frame forgets all before it.
+class GroupDecoder {
  public:
-  MixtureDecoder(const StreamHeader& header, int threads) : header_(header), threads_(threads) {}
+  explicit GroupDecoder(const StreamHeader& header) : header_(header) {}
 
-  std::vector<Result<DecodedSweep>> decode(std::span<const Packet> packets) override {
-    std::vector<Result<DecodedSweep>> sweeps;
-    sweeps.reserve(packets.size());
-    for (const Packet& packet : packets) {
-      auto sweep = decode(packet);
-      if (!sweep) {
-        sweep =
-            Error{sweep.error().code, "frame " + std::to_string(packet.frame) + ": " + sweep.error().message};
-      }
-      sweeps.push_back(std::move(sweep));
-    }
-    return sweeps;
+  Result<DecodedSweep> decode(const Packet& packet, int threads) {
+    threads_ = threads;
+    auto sweep = decode(packet);
+    if (!sweep)
+      return Error{sweep.error().code,
+                   "frame " + std::to_string(packet.frame) + ": " + sweep.error().message};
+    return sweep;
   }
 
-  Result<SweepPlanes> decode_planes(const Packet& packet) override {
-    if (header_.method != Method::planes) return Decoder::Implementation::decode_planes(packet);
+  Result<SweepPlanes> decode_planes(const Packet& packet, int threads) {
+    threads_ = threads;
     ByteReader reader(packet.payload);
     const auto coding = begin(packet, planes_frame_, reader);
     if (!coding) return coding.error();
@@ -56,6 +52,11 @@ class MixtureDecoder final : public Decoder::Implementation {
   // How the packet is coded, once its model is known. `reference_frame`: whose ranges, or planes, are known.
   Result<SweepCoding> begin(const Packet& packet, std::optional<std::uint32_t>& reference_frame,
                             ByteReader& reader) {
+    if (packet.kind == FrameKind::key) {
+      model_frame_.reset();
+      reference_frame_.reset();
+      planes_frame_.reset();
+    }
     if (packet.points_out > kMaxPointsPerSweep) {
       return Error{ErrorCode::resource_limit, "it claims " + std::to_string(packet.points_out) + " points"};
     }
@@ -66,11 +67,6 @@ class MixtureDecoder final : public Decoder::Implementation {
     const bool needs_frame = coding == SweepCoding::gridded || coding == SweepCoding::predicted;
     if (needs_frame != (packet.kind == FrameKind::predicted)) {
       return Error{ErrorCode::corrupt, "its kind and its coding contradict each other"};
-    }
-    if (packet.kind == FrameKind::key) {
-      model_frame_.reset();
-      reference_frame_.reset();
-      planes_frame_.reset();
     }
     if (coding == SweepCoding::gridded_model) {
       auto model = decode_sensor_model(get_section(reader));
@@ -139,7 +135,7 @@ class MixtureDecoder final : public Decoder::Implementation {
   }
 
   StreamHeader header_;
-  int threads_;
+  int threads_ = 1;
   SensorModel model_;
   std::optional<std::uint32_t> model_frame_;  // the frame that brought it
   CodedImage last_image_;                     // of the last sweep on the grid
@@ -147,6 +143,49 @@ class MixtureDecoder final : public Decoder::Implementation {
   GriddedPlanes last_planes_;  // of the last sweep on the grid, if only those were decoded
   std::optional<std::uint32_t> planes_frame_;
   WarpMemory warp_memory_;
+};
+
+class MixtureDecoder final : public Decoder::Implementation {
+ public:
+  MixtureDecoder(const StreamHeader& header, int threads)
+      : header_(header), threads_(threads), decoders_(1, GroupDecoder(header)) {}
+
+  // Groups side by side; where there are fewer than threads, these share the work within each.
+  std::vector<Result<DecodedSweep>> decode(std::span<const Packet> packets) override {
+    std::vector<Result<DecodedSweep>> sweeps(packets.size(), DecodedSweep{});
+    const auto first_of_group = firsts_of_groups(packets);
+    const std::size_t groups = first_of_group.size() - 1;
+    if (groups == 0) return sweeps;
+    const auto threads = static_cast<std::size_t>(threads_);
+    if (decoders_.size() < groups) decoders_.resize(groups, GroupDecoder(header_));
+    parallel_for(groups, threads_, [&](std::size_t group) {
+      for (std::size_t i = first_of_group[group]; i < first_of_group[group + 1]; ++i)
+        sweeps[i] = decoders_[group].decode(packets[i], static_cast<int>((threads + groups - 1) / groups));
+    });
+    // The last group may go on in the next call.
+    if (groups > 1) std::swap(decoders_.front(), decoders_[groups - 1]);
+    return sweeps;
+  }
+
+  Result<SweepPlanes> decode_planes(const Packet& packet) override {
+    if (header_.method != Method::planes) return Decoder::Implementation::decode_planes(packet);
+    return decoders_.front().decode_planes(packet, threads_);
+  }
+
+ private:
+  // And the end of the last one. The first group may have begun before.
+  static std::vector<std::size_t> firsts_of_groups(std::span<const Packet> packets) {
+    std::vector<std::size_t> firsts;
+    for (std::size_t i = 0; i < packets.size(); ++i) {
+      if (i == 0 || packets[i].kind == FrameKind::key) firsts.push_back(i);
+    }
+    firsts.push_back(packets.size());
+    return firsts;
+  }
+
+  StreamHeader header_;
+  int threads_;
+  std::vector<GroupDecoder> decoders_;  // the first one goes on with the last group
 };
 
 }  // namespace

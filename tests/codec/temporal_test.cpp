@@ -123,6 +123,43 @@ TEST_F(Temporal, ALostPacketCostsTheRestOfItsGroup) {
 }
 
 // One key frame a second, 5 % of the packets gone: a chain of ten keeps 76 % on average.
+// Decoded in one call of any number of threads or packet by packet; with all packets, without one of a group,
+// and with a damaged key frame.
+TEST_F(Temporal, GroupsDecodeSideBySideAsTheyDoOneAfterTheOther) {
+  for (const Effort effort : {Effort::fast, Effort::balanced}) {
+    const auto options = options_with(effort, 2);  // frames 0 1, 2 3, 4 5, 6
+    const auto whole = encode_all(sweeps_, options);
+    std::vector<Packet> without_key = whole, damaged = whole, without_first = whole;
+    without_key.erase(without_key.begin() + 4);
+    damaged[2].payload.resize(damaged[2].payload.size() / 2);
+    without_first.erase(without_first.begin());
+    for (const auto& packets : {whole, without_key, damaged, without_first}) {
+      auto one_by_one = decoder_of(options, 1);
+      std::vector<Result<DecodedSweep>> expected;
+      for (const Packet& packet : packets) expected.push_back(std::move(one_by_one.decode({&packet, 1})[0]));
+      for (const int threads : {1, 2, 3, 8}) {
+        for (const std::size_t first_call : {packets.size(), std::size_t{3}}) {
+          SCOPED_TRACE(testing::Message() << threads << " threads, " << first_call << " packets at first");
+          auto decoder = decoder_of(options, threads);
+          auto sweeps = decoder.decode(std::span(packets).first(first_call));
+          for (auto& sweep : decoder.decode(std::span(packets).subspan(first_call)))
+            sweeps.push_back(std::move(sweep));
+          ASSERT_EQ(sweeps.size(), expected.size());
+          for (std::size_t i = 0; i < sweeps.size(); ++i) {
+            ASSERT_EQ(static_cast<bool>(sweeps[i]), static_cast<bool>(expected[i])) << i;
+            if (sweeps[i]) {
+              EXPECT_EQ(sweeps[i]->frame, expected[i]->frame);
+              EXPECT_EQ(sweeps[i]->cloud.positions, expected[i]->cloud.positions);
+            } else {
+              EXPECT_EQ(sweeps[i].error().message, expected[i].error().message);
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST_F(Temporal, RandomLossesAreReportedAndMostSweepsArrive) {
   const auto drive = clouds_of(simulated_drive(60));
   const auto options = options_with(Effort::balanced, 10);

@@ -74,7 +74,7 @@ inline Outcome decode_reel(const std::string& bytes) {
   outcome.opened = true;
 
   auto planes_decoder = Decoder::create(reader->header(), Runtime{2});
-  PacketBatches batches(*reader);
+  PacketBatches batches(*reader, 2);
   for (auto batch = batches.next(); !batch.empty(); batch = batches.next()) {
     const auto sweeps = decoder->decode(batch);
     EXPECT_EQ(sweeps.size(), batch.size());

@@ -12,20 +12,25 @@ namespace pointreel {
 
 class PacketBatches {
  public:
-  explicit PacketBatches(ReelReader& reader) : reader_(reader) {}
+  // `groups`: as many as can be decoded side by side.
+  PacketBatches(ReelReader& reader, int groups) : reader_(reader), groups_(groups) {}
 
   // The next batch, empty at the end. It starts with a key frame and holds no half group, unless that would
   // be too much to have in memory at once; a Decoder takes the rest of a group in another batch as well.
   std::vector<Packet> next() {
     std::vector<Packet> batch;
     std::uint64_t points = pending_ ? pending_->points_out : 0;
+    int keys = pending_ ? 1 : 0;
     if (pending_) batch.push_back(*std::exchange(pending_, std::nullopt));
     while (points < kMostPoints && batch.size() < kMostPackets) {
       auto packet = reader_.read_packet();
       if (!packet) break;
-      if (packet->kind == FrameKind::key && batch.size() >= kEnough) {
-        pending_ = std::move(packet);
-        break;
+      if (packet->kind == FrameKind::key) {
+        if (batch.size() >= kEnough && keys >= groups_) {
+          pending_ = std::move(packet);
+          break;
+        }
+        ++keys;
       }
       points += packet->points_out;
       batch.push_back(*std::move(packet));
@@ -38,6 +43,7 @@ class PacketBatches {
   static constexpr std::size_t kMostPackets = 255 + kEnough;  // a whole group always fits
   static constexpr std::uint64_t kMostPoints = 20'000'000;    // 240 MB of decoded points
   ReelReader& reader_;
+  int groups_;
   std::optional<Packet> pending_;
 };
 

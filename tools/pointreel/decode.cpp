@@ -89,7 +89,7 @@ bool decode_batch(Decoder& decoder, std::span<const Packet> batch, const FrameRa
 // failed.
 bool decode_all(ReelReader& reader, bool live, Decoder& decoder, const FrameRange& wanted,
                 const SweepFiles& files, int threads, Written& written) {
-  PacketBatches batches(reader);
+  PacketBatches batches(reader, threads);
   const auto next = [&] {
     if (!live) return batches.next();
     auto packet = reader.read_packet();

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 
+#include "base/parallel.h"
 #include "common/packet_batches.h"
 #include "common/stopwatch.h"
 #include "pointreel/console.h"
@@ -155,7 +156,7 @@ int run(const VerifyArguments& arguments) {
   Verifier verifier(reader.header(), *originals, *decoder, arguments.threads);
   Verification& verification = verifier.verification();
   Progress progress("verifying", originals->size());
-  PacketBatches batches(reader);
+  PacketBatches batches(reader, resolve_threads(arguments.threads));
   for (auto batch = batches.next(); !batch.empty(); batch = batches.next()) {
     if (const auto done = verifier.add(batch); !done) {
       print_error(done.error());
