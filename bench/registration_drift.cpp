@@ -59,7 +59,7 @@ MotionTrack own_track(const std::vector<PointCloud>& sweeps, const RegistrationS
     if (!estimator.model()) throw std::runtime_error("no sensor grid found");
     const GriddedSweep gridded = project(*estimator.model(), sweep);
     MeasuredGrid current(*estimator.model(), gridded.grid);
-    auto range_m = ranges_by_cell(*estimator.model(), gridded);
+    auto range_m = ranges_by_cell(gridded);
     if (previous) {
       const std::clock_t begin = std::clock();
       const Registration found =

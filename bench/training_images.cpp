@@ -43,7 +43,7 @@ SensorModel model_of(const std::vector<PointCloud>& clouds, const std::filesyste
 std::optional<Pose> registered(const SensorModel& model, const GriddedSweep& previous,
                                const GriddedSweep& sweep, const std::optional<Pose>& guess) {
   const MeasuredGrid reference(model, previous.grid), current(model, sweep.grid);
-  const auto reference_m = ranges_by_cell(model, previous), current_m = ranges_by_cell(model, sweep);
+  const auto reference_m = ranges_by_cell(previous), current_m = ranges_by_cell(sweep);
   const Registration registration =
       register_sweeps(reference.with(reference_m), current.with(current_m), guess);
   if (!registration.converged) return std::nullopt;

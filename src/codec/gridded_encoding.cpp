@@ -50,7 +50,7 @@ EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud&
                                const Prediction* prediction, ByteWriter& writer,
                                FrameStatistics& statistics) {
   const auto& [model, max_error_m, effort, threads, plane_stage, warp_memory] = setting;
-  auto& [quantiser, coding, point_of_cell, image] = sweep_cells;
+  auto& [quantiser, coding, image] = sweep_cells;
 
   // Predict and code.
   ByteWriter image_bytes;
@@ -86,7 +86,7 @@ EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud&
   writer.put(image_bytes.bytes());
 
   const auto corrections = find_corrections(RayTable(model, sweep.grid), cloud, range_of_cell_m,
-                                            point_of_cell, cells, max_error_m, threads);
+                                            sweep.point_of_cell, cells, max_error_m, threads);
 
   EncodedGeometry encoded;
   std::vector<Stray> strays;
@@ -95,7 +95,7 @@ EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud&
     encoded.output_order.resize(cloud.size());
     std::iota(encoded.output_order.begin(), encoded.output_order.end(), 0u);
   } else {
-    for (const std::uint32_t cell : cells) encoded.output_order.push_back(point_of_cell[cell]);
+    for (const std::uint32_t cell : cells) encoded.output_order.push_back(sweep.point_of_cell[cell]);
   }
   for (std::uint32_t i = 0; i < cloud.size(); ++i) {
     if (sweep.cell_of_point[i] >= 0) continue;

@@ -34,11 +34,11 @@ class MeasuredGrid {
 };
 
 // By cell of the sensor grid, as the encoder has them before coding.
-inline std::vector<float> ranges_by_cell(const SensorModel& model, const GriddedSweep& sweep) {
-  std::vector<float> range_m(model.row_count() * sweep.grid.column_count());
-  for (std::size_t i = 0; i < sweep.cell_of_point.size(); ++i) {
-    if (sweep.cell_of_point[i] >= 0)
-      range_m[static_cast<std::size_t>(sweep.cell_of_point[i])] = sweep.range_m[i];
+inline std::vector<float> ranges_by_cell(const GriddedSweep& sweep) {
+  std::vector<float> range_m(sweep.point_of_cell.size());
+  for (std::size_t cell = 0; cell < range_m.size(); ++cell) {
+    const std::uint32_t point = sweep.point_of_cell[cell];
+    if (point != kNoPoint) range_m[cell] = sweep.range_m[point];
   }
   return range_m;
 }

@@ -79,14 +79,17 @@ class MixtureEncoder final : public Encoder::Implementation {
     if (auto gridded = on_grid(cloud)) {
       std::optional<Pose> T_ref_cur;
       std::optional<SweepCells> cells;
+      const auto range_of_cell_m = ranges_by_cell(*gridded);
       const auto register_sweep = [&] {
-        if (temporal_) T_ref_cur = alignment_.follow(*model_, *gridded, T_world_sensor, starts_group());
+        if (temporal_)
+          T_ref_cur =
+              alignment_.follow(*model_, gridded->grid, range_of_cell_m, T_world_sensor, starts_group());
       };
       const auto find_cells = [&] {
-        cells = cells_of_sweep(*model_, *gridded, header_.max_error_m, threads_);
+        cells = cells_of_sweep(*model_, *gridded, range_of_cell_m, header_.max_error_m, threads_);
       };
       run_both(threads_, register_sweep, find_cells);
-      estimator_.refine(cloud, gridded->grid, cells->point_of_cell);
+      estimator_.refine(cloud, *gridded);
       if (starts_group()) {
         put_model(writer, packet.statistics);
       } else {

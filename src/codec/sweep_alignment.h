@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -17,13 +18,14 @@ class SweepAlignment {
   SweepAlignment(bool registers, const RegistrationSettings& settings)
       : registers_(registers), settings_(settings) {}
 
-  // Takes the next sweep. Its coordinates to those of the sweep before, before motion compensation; none when
-  // it `is_key`, or when the two cannot be registered. Given poses are where the search begins, else the
-  // motion before.
+  // Takes the next sweep, its ranges by cell (ranges_by_cell()). Its coordinates to those of the sweep
+  // before, before motion compensation; none when it `is_key`, or when the two cannot be registered. Given
+  // poses are where the search begins, else the motion before.
   //
   // Sweeps are registered as measured: coarse steps of range bend the ground the same way in every sweep,
   // which looks like standing still (docs/REGISTRATION.md).
-  std::optional<Pose> follow(const SensorModel& model, const GriddedSweep& sweep,
+  std::optional<Pose> follow(const SensorModel& model, const SweepGrid& grid,
+                             std::span<const float> range_of_cell_m,
                              const std::optional<Pose>& T_world_sensor, bool is_key) {
     if (!registers_) {
       const auto before = std::exchange(T_world_reference_, T_world_sensor);
@@ -31,8 +33,8 @@ class SweepAlignment {
       const Pose given = before && T_world_sensor ? before->inverse() * *T_world_sensor : Pose::Identity();
       return quantised(given) ? std::optional(given) : std::nullopt;
     }
-    auto current_m = ranges_by_cell(model, sweep);
-    GridRays current(MeasuredGrid(model, sweep.grid).with(current_m));
+    std::vector<float> current_m(range_of_cell_m.begin(), range_of_cell_m.end());
+    GridRays current(MeasuredGrid(model, grid).with(current_m));
     std::optional<Pose> T_ref_cur;
     if (!is_key && reference_) {
       std::optional<Pose> guess = motion_;

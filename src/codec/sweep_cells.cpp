@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "base/simd_loops.h"
 #include "codec/corrections.h"
 #include "codec/error_budget.h"
-#include "sensor/projection.h"
 
 namespace pointreel {
 namespace {
@@ -34,7 +32,10 @@ POINTREEL_SIMD_LOOPS void drop_beyond(const PointCloud& cloud, float reach_m, Gr
     for (std::size_t i = 0; i < count; ++i) {
       const float* p = coordinates_m + 3 * i;
       const float farthest_m = std::max({std::fabs(p[0]), std::fabs(p[1]), std::fabs(p[2]), ranges_m[i]});
-      if (!(farthest_m < reach_m && ranges_m[i] > kNearestM)) sweep.cell_of_point[first + i] = -1;
+      std::int32_t& cell = sweep.cell_of_point[first + i];
+      if (cell < 0 || (farthest_m < reach_m && ranges_m[i] > kNearestM)) continue;
+      sweep.point_of_cell[static_cast<std::size_t>(cell)] = kNoPoint;
+      cell = -1;
     }
   }
 }
@@ -48,17 +49,9 @@ void drop_unreachable(const PointCloud& cloud, double max_error_m, GriddedSweep&
               sweep);
 }
 
-SweepCells cells_of_sweep(const SensorModel& model, const GriddedSweep& sweep, double max_error_m,
-                          int threads) {
-  SweepCells cells{choose_quantiser(model, sweep, max_error_m),
-                   CodingGrid(model, sweep.grid),
-                   points_of_cells(model, sweep),
-                   {}};
-  std::vector<float> range_of_cell_m(cells.point_of_cell.size());
-  for (std::size_t cell = 0; cell < range_of_cell_m.size(); ++cell) {
-    const std::uint32_t point = cells.point_of_cell[cell];
-    if (point != kNoPoint) range_of_cell_m[cell] = sweep.range_m[point];
-  }
+SweepCells cells_of_sweep(const SensorModel& model, const GriddedSweep& sweep,
+                          std::span<const float> range_of_cell_m, double max_error_m, int threads) {
+  SweepCells cells{choose_quantiser(model, sweep, max_error_m), CodingGrid(model, sweep.grid), {}};
   cells.image = cells.coding.image_of(range_of_cell_m, threads);
   return cells;
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
+#include <span>
 
 #include "pointreel/point_cloud.h"
 #include "predict/coding_grid.h"
@@ -16,14 +16,14 @@ namespace pointreel {
 struct SweepCells {
   RangeQuantiser quantiser;
   CodingGrid coding;
-  std::vector<std::uint32_t> point_of_cell;  // of the sensor grid; kNoPoint where a cell is empty
-  GridImage image;                           // as measured
+  GridImage image;  // as measured
 };
 
 // Takes points off the grid that float32 ranges and positions cannot hold within the bound.
 void drop_unreachable(const PointCloud& cloud, double max_error_m, GriddedSweep& sweep);
 
-SweepCells cells_of_sweep(const SensorModel& model, const GriddedSweep& sweep, double max_error_m,
-                          int threads);
+// `range_of_cell_m`: see ranges_by_cell().
+SweepCells cells_of_sweep(const SensorModel& model, const GriddedSweep& sweep,
+                          std::span<const float> range_of_cell_m, double max_error_m, int threads);
 
 }  // namespace pointreel

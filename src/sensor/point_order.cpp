@@ -16,14 +16,14 @@ struct CellImage {
   std::vector<float> range_m;
 };
 
-CellImage image_of(const SensorModel& model, const GriddedSweep& sweep) {
-  const std::size_t cells = model.rows.size() * sweep.grid.column_count();
+CellImage image_of(const GriddedSweep& sweep) {
+  const std::size_t cells = sweep.point_of_cell.size();
   CellImage image{std::vector<std::uint8_t>(cells, 0), std::vector<float>(cells, 0)};
-  for (std::size_t i = 0; i < sweep.cell_of_point.size(); ++i) {
-    if (sweep.cell_of_point[i] < 0) continue;
-    const auto cell = static_cast<std::size_t>(sweep.cell_of_point[i]);
+  for (std::size_t cell = 0; cell < cells; ++cell) {
+    const std::uint32_t point = sweep.point_of_cell[cell];
+    if (point == kNoPoint) continue;
     image.occupied[cell] = 1;
-    image.range_m[cell] = sweep.range_m[i];
+    image.range_m[cell] = sweep.range_m[point];
   }
   return image;
 }
@@ -206,7 +206,7 @@ PointOrder find_order(const SensorModel& model, const GriddedSweep& sweep,
   if (walk.empty()) return {};
   SweepGrid grid = sweep.grid;
   const std::size_t columns = grid.column_count();
-  const CellImage image = image_of(model, sweep);
+  const CellImage image = image_of(sweep);
   std::vector<OrderKind> kinds;
   WalkSummary summary;
   if (firing_descending) {

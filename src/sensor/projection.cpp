@@ -151,18 +151,15 @@ void check_compensation(const SensorModel& model, const PointCloud& cloud, const
 
 // One point per cell: the one that fits best, the first of equals.
 void resolve_collisions(std::size_t cells, GriddedSweep& sweep) {
-  std::vector<std::int32_t> owner(cells, -1);
+  sweep.point_of_cell.assign(cells, kNoPoint);
   for (std::size_t i = 0; i < sweep.cell_of_point.size(); ++i) {
     if (sweep.cell_of_point[i] < 0) continue;
-    std::int32_t& holder = owner[static_cast<std::size_t>(sweep.cell_of_point[i])];
-    if (holder < 0) {
-      holder = static_cast<std::int32_t>(i);
-      continue;
-    }
-    const auto other = static_cast<std::size_t>(holder);
-    if (sweep.deviation_m[i] < sweep.deviation_m[other]) {
-      make_stray(sweep, other, StrayReason::collision);
-      holder = static_cast<std::int32_t>(i);
+    std::uint32_t& holder = sweep.point_of_cell[static_cast<std::size_t>(sweep.cell_of_point[i])];
+    if (holder == kNoPoint) {
+      holder = static_cast<std::uint32_t>(i);
+    } else if (sweep.deviation_m[i] < sweep.deviation_m[holder]) {
+      make_stray(sweep, holder, StrayReason::collision);
+      holder = static_cast<std::uint32_t>(i);
     } else {
       make_stray(sweep, i, StrayReason::collision);
     }
@@ -212,15 +209,6 @@ GriddedSweep project(const SensorModel& model, const PointCloud& cloud, const Gr
                          ? previous->order
                          : find_order(model, sweep, firing_descending);
   return sweep;
-}
-
-std::vector<std::uint32_t> points_of_cells(const SensorModel& model, const GriddedSweep& sweep) {
-  std::vector<std::uint32_t> point_of_cell(model.rows.size() * sweep.grid.column_count(), kNoPoint);
-  for (std::size_t i = 0; i < sweep.cell_of_point.size(); ++i) {
-    if (sweep.cell_of_point[i] >= 0)
-      point_of_cell[static_cast<std::size_t>(sweep.cell_of_point[i])] = static_cast<std::uint32_t>(i);
-  }
-  return point_of_cell;
 }
 
 }  // namespace pointreel

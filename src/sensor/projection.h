@@ -1,9 +1,6 @@
 // project: a cloud into the cells of the sensor's own grid.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "pointreel/point_cloud.h"
 #include "sensor/sensor_model.h"
 #include "sensor/sweep_grid.h"
@@ -23,9 +20,5 @@ struct GridOptions {
 // alike. The order is then taken from it where it can be: settle_order() checks that.
 GriddedSweep project(const SensorModel& model, const PointCloud& cloud, const GridOptions& options = {},
                      const SweepGrid* previous = nullptr);
-
-// The point in each cell, row * column_count + column; kNoPoint: none.
-inline constexpr std::uint32_t kNoPoint = 0xffffffff;
-std::vector<std::uint32_t> points_of_cells(const SensorModel& model, const GriddedSweep& sweep);
 
 }  // namespace pointreel

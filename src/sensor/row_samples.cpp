@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <span>
 
 #include "sensor/polar_points.h"
-#include "sensor/projection.h"
 #include "sensor/row_assignment.h"
 
 namespace pointreel {
@@ -39,12 +39,13 @@ std::vector<Chosen> choose(std::span<const std::uint32_t> point_of_cell, std::si
 
 }  // namespace
 
-RowSamples take_row_samples(const SensorModel& model, const PointCloud& cloud, const SweepGrid& grid,
-                            std::span<const std::uint32_t> point_of_cell, const RowsInTurn& turn) {
+RowSamples take_row_samples(const SensorModel& model, const PointCloud& cloud, const GriddedSweep& sweep,
+                            const RowsInTurn& turn) {
   constexpr double kLeastRangeM = 1;
+  const SweepGrid& grid = sweep.grid;
   RowSamples samples(model.rows.size());
   if (grid.column_count() == 0) return samples;
-  const auto all = choose(point_of_cell, grid.column_count(), turn);
+  const auto all = choose(sweep.point_of_cell, grid.column_count(), turn);
   PointCloud points;
   for (const Chosen& chosen : all) points.positions.push_back(cloud.positions[chosen.point]);
   const PolarPoints polar = polar_points(points, grid.motion, 1);

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <span>
 #include <vector>
 
 #include "pointreel/point_cloud.h"
@@ -25,9 +23,9 @@ struct RowsInTurn {
   std::size_t first = 0, step = 1;
 };
 
-// The sweep may have been projected with another model of the same rows. `point_of_cell`: as of
-// points_of_cells() (projection.h). Rows that it is not the turn of have no samples.
-RowSamples take_row_samples(const SensorModel& model, const PointCloud& cloud, const SweepGrid& grid,
-                            std::span<const std::uint32_t> point_of_cell, const RowsInTurn& turn = {});
+// The sweep may have been projected with another model of the same rows. Rows that it is not the turn of have
+// no samples.
+RowSamples take_row_samples(const SensorModel& model, const PointCloud& cloud, const GriddedSweep& sweep,
+                            const RowsInTurn& turn = {});
 
 }  // namespace pointreel

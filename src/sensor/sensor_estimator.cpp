@@ -256,32 +256,28 @@ bool SensorEstimator::accept(SensorModel model, const PointCloud& cloud) {
   const GriddedSweep sweep = project(model, cloud, options_);
   if (!is_usable(model, sweep)) return false;
   refinement_.emplace(std::move(model));
-  take_in(cloud, sweep.grid, points_of_cells(refinement_->base(), sweep), {});
+  take_in(cloud, sweep, {});
   return true;
 }
 
-void SensorEstimator::take_in(const PointCloud& cloud, const SweepGrid& grid,
-                              std::span<const std::uint32_t> point_of_cell, const RowsInTurn& turn) {
-  const RowSamples samples = take_row_samples(refinement_->base(), cloud, grid, point_of_cell, turn);
+void SensorEstimator::take_in(const PointCloud& cloud, const GriddedSweep& sweep, const RowsInTurn& turn) {
+  const RowSamples samples = take_row_samples(refinement_->base(), cloud, sweep, turn);
   refinement_->add(samples);
   lattice_.add(samples);
   model_ = refined_ > 0 ? refinement_->refined() : refinement_->base();
   lattice_.write_to(*model_, refinement_->base());
 }
 
-void SensorEstimator::refine(const PointCloud& cloud, const SweepGrid& grid,
-                             std::span<const std::uint32_t> point_of_cell) {
+void SensorEstimator::refine(const PointCloud& cloud, const GriddedSweep& sweep) {
   if (is_settled()) return;
   const RowsInTurn turn = {refined_ % turns_, turns_};
   ++refined_;
-  take_in(cloud, grid, point_of_cell, turn);
+  take_in(cloud, sweep, turn);
 }
 
 void SensorEstimator::add(const PointCloud& cloud) {
   if (model_) {
-    if (is_settled()) return;
-    const GriddedSweep sweep = project(*model_, cloud, options_);
-    refine(cloud, sweep.grid, points_of_cells(*model_, sweep));
+    if (!is_settled()) refine(cloud, project(*model_, cloud, options_));
     return;
   }
   const PolarPoints polar = polar_points(cloud, {}, options_.threads);

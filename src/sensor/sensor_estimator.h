@@ -2,9 +2,7 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
-#include <span>
 
 #include "pointreel/point_cloud.h"
 #include "sensor/projection.h"
@@ -25,7 +23,7 @@ class SensorEstimator {
   // sequence of the rows stay.
   void add(const PointCloud& cloud);
   // The same for a sweep that is projected already, with a model given before.
-  void refine(const PointCloud& cloud, const SweepGrid& grid, std::span<const std::uint32_t> point_of_cell);
+  void refine(const PointCloud& cloud, const GriddedSweep& sweep);
 
   // None: no sweep so far comes from a sensor whose rows and columns can be told.
   const std::optional<SensorModel>& model() const { return model_; }
@@ -35,8 +33,7 @@ class SensorEstimator {
 
   bool is_settled() const { return refined_ == kRefiningSweeps * turns_; }
   bool accept(SensorModel model, const PointCloud& cloud);
-  void take_in(const PointCloud& cloud, const SweepGrid& grid, std::span<const std::uint32_t> point_of_cell,
-               const RowsInTurn& turn);
+  void take_in(const PointCloud& cloud, const GriddedSweep& sweep, const RowsInTurn& turn);
 
   GridOptions options_;
   std::size_t turns_;

@@ -67,12 +67,15 @@ enum class StrayReason : std::uint8_t {
   collision,   // another point fits the same cell better
 };
 
+inline constexpr std::uint32_t kNoPoint = 0xffffffff;
+
 struct GriddedSweep {
   SweepGrid grid;
-  RawVector<std::int32_t> cell_of_point;  // row * column_count + column, or -1: stray
-  RawVector<float> range_m;               // along the ray from (0, 0, offset); 0 for strays
-  RawVector<float> deviation_m;           // from the nearest point of the cell's ray; 0 for strays
-  std::vector<StrayReason> stray_reason;  // per point
+  RawVector<std::int32_t> cell_of_point;     // row * column_count + column, or -1: stray
+  RawVector<float> range_m;                  // along the ray from (0, 0, offset); 0 for strays
+  RawVector<float> deviation_m;              // from the nearest point of the cell's ray; 0 for strays
+  std::vector<StrayReason> stray_reason;     // per point
+  std::vector<std::uint32_t> point_of_cell;  // the way back; kNoPoint: none
 };
 
 }  // namespace pointreel

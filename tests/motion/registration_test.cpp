@@ -111,7 +111,7 @@ std::vector<Registration> motions_along(const std::vector<PointCloud>& sweeps, b
     estimator.add(sweep);
     const GriddedSweep gridded = project(*estimator.model(), sweep);
     MeasuredGrid current(*estimator.model(), gridded.grid);
-    auto range_m = ranges_by_cell(*estimator.model(), gridded);
+    auto range_m = ranges_by_cell(gridded);
     if (previous) {
       std::optional<Pose> guess;
       if (with_guess && !motions.empty()) guess = motions.back().T_ref_cur;

@@ -54,7 +54,7 @@ TEST(Refinement, TakesASweepProjectedBefore) {
   ASSERT_TRUE(alone.model());
   const GriddedSweep grid = project(*helped.model(), sweeps[1].cloud);
   alone.add(sweeps[1].cloud);
-  helped.refine(sweeps[1].cloud, grid.grid, points_of_cells(*helped.model(), grid));
+  helped.refine(sweeps[1].cloud, grid);
   EXPECT_EQ(*alone.model(), *helped.model());
 }
 
