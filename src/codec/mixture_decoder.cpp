@@ -1,13 +1,18 @@
 // The sensor's grid, the way back: sensor model -> planes -> cells and ranges -> points in order ->
 // corrections, strays -> fields.
+#include <algorithm>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "base/parallel.h"
 #include "codec/field_sections.h"
 #include "codec/gridded_geometry.h"
 #include "codec/method.h"
 #include "codec/mixture_payload.h"
+#include "codec/packet_groups.h"
 #include "codec/point_matching.h"
 #include "codec/sections.h"
 #include "codec/sweep_planes.h"
@@ -150,20 +155,14 @@ class MixtureDecoder final : public Decoder::Implementation {
   MixtureDecoder(const StreamHeader& header, int threads)
       : header_(header), threads_(threads), decoders_(1, GroupDecoder(header)) {}
 
-  // Groups side by side; where there are fewer than threads, these share the work within each.
   std::vector<Result<DecodedSweep>> decode(std::span<const Packet> packets) override {
-    std::vector<Result<DecodedSweep>> sweeps(packets.size(), DecodedSweep{});
-    const auto first_of_group = firsts_of_groups(packets);
-    const std::size_t groups = first_of_group.size() - 1;
-    if (groups == 0) return sweeps;
-    const auto threads = static_cast<std::size_t>(threads_);
-    if (decoders_.size() < groups) decoders_.resize(groups, GroupDecoder(header_));
-    parallel_for(groups, threads_, [&](std::size_t group) {
-      for (std::size_t i = first_of_group[group]; i < first_of_group[group + 1]; ++i)
-        sweeps[i] = decoders_[group].decode(packets[i], static_cast<int>((threads + groups - 1) / groups));
-    });
-    // The last group may go on in the next call.
-    if (groups > 1) std::swap(decoders_.front(), decoders_[groups - 1]);
+    std::vector<Result<DecodedSweep>> sweeps;
+    sweeps.reserve(packets.size());
+    while (sweeps.size() < packets.size()) {
+      const std::span<const Packet> left = packets.subspan(sweeps.size());
+      for (auto& sweep : decode_groups(left.first(packets_of_groups(left, threads_))))
+        sweeps.push_back(std::move(sweep));
+    }
     return sweeps;
   }
 
@@ -173,14 +172,20 @@ class MixtureDecoder final : public Decoder::Implementation {
   }
 
  private:
-  // And the end of the last one. The first group may have begun before.
-  static std::vector<std::size_t> firsts_of_groups(std::span<const Packet> packets) {
-    std::vector<std::size_t> firsts;
-    for (std::size_t i = 0; i < packets.size(); ++i) {
-      if (i == 0 || packets[i].kind == FrameKind::key) firsts.push_back(i);
-    }
-    firsts.push_back(packets.size());
-    return firsts;
+  // Side by side; where there are fewer than threads, these share the work within each.
+  std::vector<Result<DecodedSweep>> decode_groups(std::span<const Packet> packets) {
+    std::vector<Result<DecodedSweep>> sweeps(packets.size(), DecodedSweep{});
+    const auto firsts = firsts_of_groups(packets);
+    const std::size_t groups = firsts.size() - 1;
+    const int threads_each = std::max(1, threads_ / static_cast<int>(groups));
+    if (decoders_.size() < groups) decoders_.resize(groups, GroupDecoder(header_));
+    parallel_for(groups, threads_, [&](std::size_t group) {
+      for (std::size_t i = firsts[group]; i < firsts[group + 1]; ++i)
+        sweeps[i] = decoders_[group].decode(packets[i], threads_each);
+    });
+    // The last group may go on in the next call.
+    if (groups > 1) std::swap(decoders_.front(), decoders_[groups - 1]);
+    return sweeps;
   }
 
   StreamHeader header_;

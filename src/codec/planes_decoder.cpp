@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "codec/method.h"
+#include "codec/packet_groups.h"
 #include "codec/relative_pose.h"
 #include "codec/wire.h"
 #include "planes/frame_coding.h"
@@ -24,7 +25,7 @@ class PlanesDecoder final : public Decoder::Implementation {
     sweeps.reserve(packets.size());
     while (sweeps.size() < packets.size()) {
       const std::span<const Packet> left = packets.subspan(sweeps.size());
-      for (auto& sweep : decode_groups(left.first(packets_of_groups(left))))
+      for (auto& sweep : decode_groups(left.first(packets_of_groups(left, threads_))))
         sweeps.push_back(std::move(sweep));
     }
     return sweeps;
@@ -35,15 +36,6 @@ class PlanesDecoder final : public Decoder::Implementation {
     std::uint32_t frame = 0;
     KeyFrame key;
   };
-
-  // How many packets to take so that there is a key frame for each thread, no more: each is held in memory.
-  std::size_t packets_of_groups(std::span<const Packet> packets) const {
-    int keys = 0;
-    for (std::size_t i = 0; i < packets.size(); ++i) {
-      if (packets[i].kind == FrameKind::key && ++keys > threads_) return i;
-    }
-    return packets.size();
-  }
 
   // All key frames in parallel, then all predicted ones.
   std::vector<Result<DecodedSweep>> decode_groups(std::span<const Packet> packets) {
