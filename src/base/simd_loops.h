@@ -3,8 +3,8 @@
 //
 // For plain loops over points and cells. Elementwise float arithmetic gives the same bits at every width;
 // what reorders sums or needs intrinsics goes through Highway (lanes-inl.h). Functions that it calls have to
-// be inlined to gain from it. They are for their own file: compilers differ in
-// what callers elsewhere have to know of them.
+// be inlined to gain from it. They are for their own file: compilers differ in what callers elsewhere have to
+// know of them.
 #pragma once
 
 #if defined(__has_feature)
