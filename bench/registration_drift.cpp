@@ -19,6 +19,7 @@
 #include "pointreel/exit_code.h"
 #include "pointreel/simulator.h"
 #include "require.h"
+#include "sensor/point_order.h"
 #include "sensor/projection.h"
 #include "sensor/sensor_estimator.h"
 #include "sweep_set.h"

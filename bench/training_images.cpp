@@ -11,6 +11,7 @@
 #include "predict/coding_grid.h"
 #include "predict/warp.h"
 #include "require.h"
+#include "sensor/point_order.h"
 #include "sensor/projection.h"
 #include "sensor/sensor_estimator.h"
 

@@ -1,6 +1,5 @@
-#include <string>
-
 #include "codec/method.h"
+#include "codec/packet_groups.h"
 #include "pointreel/codec.h"
 
 namespace pointreel {
@@ -27,10 +26,7 @@ std::vector<Result<SweepPlanes>> Decoder::decode_planes(std::span<const Packet> 
   sweeps.reserve(packets.size());
   for (const Packet& packet : packets) {
     auto planes = implementation_->decode_planes(packet);
-    if (!planes) {
-      planes =
-          Error{planes.error().code, "frame " + std::to_string(packet.frame) + ": " + planes.error().message};
-    }
+    if (!planes) planes = in_frame(packet, planes.error());
     sweeps.push_back(std::move(planes));
   }
   return sweeps;

@@ -1,23 +1,8 @@
 #include "codec/grid_points.h"
 
-#include "base/simd_loops.h"
 #include "sensor/point_order.h"
 
 namespace pointreel {
-
-namespace {
-
-POINTREEL_SIMD_LOOPS void mark_occupied(const float* range_m, std::size_t cells, std::uint8_t* occupied) {
-  for (std::size_t cell = 0; cell < cells; ++cell) occupied[cell] = range_m[cell] > 0 ? 1 : 0;
-}
-
-}  // namespace
-
-std::vector<std::uint8_t> occupied_cells(std::span<const float> range_of_cell_m) {
-  std::vector<std::uint8_t> occupied(range_of_cell_m.size());
-  mark_occupied(range_of_cell_m.data(), occupied.size(), occupied.data());
-  return occupied;
-}
 
 CodedGeometry merged(const CodingGrid& coding, std::span<const std::uint32_t> cells,
                      std::span<const float> range_of_cell_m, std::span<const std::uint32_t> strays,

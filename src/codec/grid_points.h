@@ -14,8 +14,6 @@
 
 namespace pointreel {
 
-std::vector<std::uint8_t> occupied_cells(std::span<const float> range_of_cell_m);
-
 // Calls take(i, k) for each point i that is no stray: the k-th of the grid. In pieces, on all threads, each
 // with its own copy of `take`. `strays`: their places, ascending.
 template <class Take>

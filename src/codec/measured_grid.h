@@ -33,14 +33,4 @@ class MeasuredGrid {
   std::vector<double> column_azimuth_rad_;
 };
 
-// By cell of the sensor grid, as the encoder has them before coding.
-inline std::vector<float> ranges_by_cell(const GriddedSweep& sweep) {
-  std::vector<float> range_m(sweep.point_of_cell.size());
-  for (std::size_t cell = 0; cell < range_m.size(); ++cell) {
-    const std::uint32_t point = sweep.point_of_cell[cell];
-    if (point != kNoPoint) range_m[cell] = sweep.range_m[point];
-  }
-  return range_m;
-}
-
 }  // namespace pointreel

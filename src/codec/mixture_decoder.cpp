@@ -30,21 +30,47 @@ class GroupDecoder {
   explicit GroupDecoder(const StreamHeader& header) : header_(header) {}
 
   Result<DecodedSweep> decode(const Packet& packet, int threads) {
-    threads_ = threads;
-    auto sweep = decode(packet);
-    if (!sweep)
-      return Error{sweep.error().code,
-                   "frame " + std::to_string(packet.frame) + ": " + sweep.error().message};
+    ByteReader reader(packet.payload);
+    const auto begun = begin(packet, reference_frame_, reader);
+    if (!begun) return begun.error();
+    const SweepCoding coding = *begun;
+    auto geometry =
+        coding == SweepCoding::scattered
+            ? decode_scattered_sweep(packet, reader)
+            : decode_gridded(geometry_setting(header_, model_, threads, warp_memory_), packet.points_out,
+                             coding == SweepCoding::predicted ? &last_image_ : nullptr, reader);
+    if (!geometry) return geometry.error();
+    const std::size_t field_bytes = ByteReader(reader).rest().size();  // a copy: rest() takes them
+    DecodedSweep sweep;
+    sweep.frame = packet.frame;
+    sweep.cloud.positions = std::move(geometry->positions);
+    if (sweep.cloud.count_non_finite() > 0)
+      return Error{ErrorCode::corrupt, "it holds a position that is not finite"};
+    auto fields = decode_fields(geometry->geometry, threads, reader);
+    if (!fields) return fields.error();
+    if (!reader.rest().empty()) return Error{ErrorCode::corrupt, "bytes follow its fields"};
+    if (!geometry->image.reference.image.range_m.empty()) {
+      last_image_ = std::move(geometry->image);
+      reference_frame_ = packet.frame;
+      if (header_.method == Method::planes) {
+        last_planes_ = {last_image_.reference.grid, last_image_.planes};
+        planes_frame_ = packet.frame;
+      }
+    }
+    sweep.cloud.fields = *std::move(fields);
+    if (!geometry->geometry.bursts.empty()) redo_sort(geometry->geometry.bursts, sweep.cloud);
+    sweep.order_kept = geometry->geometry.order_kept;
+    sweep.temporal = coding == SweepCoding::predicted;
+    sweep.field_bytes = field_bytes;
     return sweep;
   }
 
   Result<SweepPlanes> decode_planes(const Packet& packet, int threads) {
-    threads_ = threads;
     ByteReader reader(packet.payload);
     const auto coding = begin(packet, planes_frame_, reader);
     if (!coding) return coding.error();
     if (*coding == SweepCoding::scattered) return SweepPlanes{packet.frame, {}, {}};
-    auto planes = decode_gridded_planes(geometry_setting(header_, model_, threads_, warp_memory_),
+    auto planes = decode_gridded_planes(geometry_setting(header_, model_, threads, warp_memory_),
                                         *coding == SweepCoding::predicted ? &last_planes_ : nullptr, reader);
     if (!planes) return planes.error();
     last_planes_ = *std::move(planes);
@@ -88,42 +114,6 @@ class GroupDecoder {
     return coding;
   }
 
-  Result<DecodedSweep> decode(const Packet& packet) {
-    ByteReader reader(packet.payload);
-    const auto begun = begin(packet, reference_frame_, reader);
-    if (!begun) return begun.error();
-    const SweepCoding coding = *begun;
-    auto geometry =
-        coding == SweepCoding::scattered
-            ? decode_scattered_sweep(packet, reader)
-            : decode_gridded(geometry_setting(header_, model_, threads_, warp_memory_), packet.points_out,
-                             coding == SweepCoding::predicted ? &last_image_ : nullptr, reader);
-    if (!geometry) return geometry.error();
-    const std::size_t field_bytes = ByteReader(reader).rest().size();  // a copy: rest() takes them
-    DecodedSweep sweep;
-    sweep.frame = packet.frame;
-    sweep.cloud.positions = std::move(geometry->positions);
-    if (sweep.cloud.count_non_finite() > 0)
-      return Error{ErrorCode::corrupt, "it holds a position that is not finite"};
-    auto fields = decode_fields(geometry->geometry, threads_, reader);
-    if (!fields) return fields.error();
-    if (!reader.rest().empty()) return Error{ErrorCode::corrupt, "bytes follow its fields"};
-    if (!geometry->image.reference.image.range_m.empty()) {
-      last_image_ = std::move(geometry->image);
-      reference_frame_ = packet.frame;
-      if (header_.method == Method::planes) {
-        last_planes_ = {last_image_.reference.grid, last_image_.planes};
-        planes_frame_ = packet.frame;
-      }
-    }
-    sweep.cloud.fields = *std::move(fields);
-    if (!geometry->geometry.bursts.empty()) redo_sort(geometry->geometry.bursts, sweep.cloud);
-    sweep.order_kept = geometry->geometry.order_kept;
-    sweep.temporal = coding == SweepCoding::predicted;
-    sweep.field_bytes = field_bytes;
-    return sweep;
-  }
-
   Result<DecodedGeometry> decode_scattered_sweep(const Packet& packet, ByteReader& reader) const {
     auto points = decode_scattered(get_section(reader), header_.max_error_m, packet.points_out);
     if (!points) return points.error();
@@ -140,7 +130,6 @@ class GroupDecoder {
   }
 
   StreamHeader header_;
-  int threads_ = 1;
   SensorModel model_;
   std::optional<std::uint32_t> model_frame_;  // the frame that brought it
   CodedImage last_image_;                     // of the last sweep on the grid
@@ -156,14 +145,8 @@ class MixtureDecoder final : public Decoder::Implementation {
       : header_(header), threads_(threads), decoders_(1, GroupDecoder(header)) {}
 
   std::vector<Result<DecodedSweep>> decode(std::span<const Packet> packets) override {
-    std::vector<Result<DecodedSweep>> sweeps;
-    sweeps.reserve(packets.size());
-    while (sweeps.size() < packets.size()) {
-      const std::span<const Packet> left = packets.subspan(sweeps.size());
-      for (auto& sweep : decode_groups(left.first(packets_of_groups(left, threads_))))
-        sweeps.push_back(std::move(sweep));
-    }
-    return sweeps;
+    return decode_by_groups(packets, threads_,
+                            [this](std::span<const Packet> groups) { return decode_groups(groups); });
   }
 
   Result<SweepPlanes> decode_planes(const Packet& packet) override {
@@ -180,8 +163,10 @@ class MixtureDecoder final : public Decoder::Implementation {
     const int threads_each = std::max(1, threads_ / static_cast<int>(groups));
     if (decoders_.size() < groups) decoders_.resize(groups, GroupDecoder(header_));
     parallel_for(groups, threads_, [&](std::size_t group) {
-      for (std::size_t i = firsts[group]; i < firsts[group + 1]; ++i)
+      for (std::size_t i = firsts[group]; i < firsts[group + 1]; ++i) {
         sweeps[i] = decoders_[group].decode(packets[i], threads_each);
+        if (!sweeps[i]) sweeps[i] = in_frame(packets[i], sweeps[i].error());
+      }
     });
     // The last group may go on in the next call.
     if (groups > 1) std::swap(decoders_.front(), decoders_[groups - 1]);

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "pointreel/codec.h"
@@ -17,6 +19,25 @@ inline std::size_t packets_of_groups(std::span<const Packet> packets, int thread
     if (packets[i].kind == FrameKind::key && ++keys > threads) return i;
   }
   return packets.size();
+}
+
+// Decodes by decode_groups(packets), groups for as many threads at a time.
+template <class DecodeGroups>
+std::vector<Result<DecodedSweep>> decode_by_groups(std::span<const Packet> packets, int threads,
+                                                   const DecodeGroups& decode_groups) {
+  std::vector<Result<DecodedSweep>> sweeps;
+  sweeps.reserve(packets.size());
+  while (sweeps.size() < packets.size()) {
+    const std::span<const Packet> left = packets.subspan(sweeps.size());
+    for (auto& sweep : decode_groups(left.first(packets_of_groups(left, threads))))
+      sweeps.push_back(std::move(sweep));
+  }
+  return sweeps;
+}
+
+// What went wrong with a packet, with the frame's name.
+inline Error in_frame(const Packet& packet, const Error& error) {
+  return {error.code, "frame " + std::to_string(packet.frame) + ": " + error.message};
 }
 
 // The first packet of each group, and the number of packets. The first group may have begun before them.

@@ -21,14 +21,8 @@ class PlanesDecoder final : public Decoder::Implementation {
       : grid_(std::move(grid)), settings_(frame_settings(header.planes)), threads_(threads) {}
 
   std::vector<Result<DecodedSweep>> decode(std::span<const Packet> packets) override {
-    std::vector<Result<DecodedSweep>> sweeps;
-    sweeps.reserve(packets.size());
-    while (sweeps.size() < packets.size()) {
-      const std::span<const Packet> left = packets.subspan(sweeps.size());
-      for (auto& sweep : decode_groups(left.first(packets_of_groups(left, threads_))))
-        sweeps.push_back(std::move(sweep));
-    }
-    return sweeps;
+    return decode_by_groups(packets, threads_,
+                            [this](std::span<const Packet> groups) { return decode_groups(groups); });
   }
 
  private:
@@ -90,10 +84,6 @@ class PlanesDecoder final : public Decoder::Implementation {
                                                std::to_string(packet.points_out)});
     }
     return DecodedSweep{packet.frame, cloud_of(grid_, image, T_key_sensor), T_key_sensor, false};
-  }
-
-  static Error in_frame(const Packet& packet, const Error& error) {
-    return {error.code, "frame " + std::to_string(packet.frame) + ": " + error.message};
   }
 
   AngularGrid grid_;

@@ -18,8 +18,8 @@ constexpr bool has_trust(const CodingKind& kind) {
   return kind.predicted && kind.effort == Effort::max;
 }
 
-// Whether lines that follow the rows stand in for local fits, which take as many instructions as all other
-// prediction.
+// Whether lines that follow the rows stand in for local fits, which take nearly as many instructions as
+// all other prediction.
 constexpr bool has_row_lines(const CodingKind& kind) {
   return kind.predicted && kind.effort == Effort::balanced;
 }

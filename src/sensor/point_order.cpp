@@ -5,27 +5,15 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "base/simd_loops.h"
 #include "sensor/order_moves.h"
 #include "sensor/row_walk.h"
 
 namespace pointreel {
 namespace {
 
-struct CellImage {
-  std::vector<std::uint8_t> occupied;
-  std::vector<float> range_m;
-};
-
-CellImage image_of(const GriddedSweep& sweep) {
-  const std::size_t cells = sweep.point_of_cell.size();
-  CellImage image{std::vector<std::uint8_t>(cells, 0), std::vector<float>(cells, 0)};
-  for (std::size_t cell = 0; cell < cells; ++cell) {
-    const std::uint32_t point = sweep.point_of_cell[cell];
-    if (point == kNoPoint) continue;
-    image.occupied[cell] = 1;
-    image.range_m[cell] = sweep.range_m[point];
-  }
-  return image;
+POINTREEL_SIMD_LOOPS void mark_occupied(const float* range_m, std::size_t cells, std::uint8_t* occupied) {
+  for (std::size_t cell = 0; cell < cells; ++cell) occupied[cell] = range_m[cell] > 0 ? 1 : 0;
 }
 
 // With more, the order is not kept: a move takes about 20 bits.
@@ -142,6 +130,21 @@ std::vector<std::uint32_t> cells_row_by_row(std::span<const std::uint8_t> occupi
 
 }  // namespace
 
+std::vector<float> ranges_by_cell(const GriddedSweep& sweep) {
+  std::vector<float> range_m(sweep.point_of_cell.size());
+  for (std::size_t cell = 0; cell < range_m.size(); ++cell) {
+    const std::uint32_t point = sweep.point_of_cell[cell];
+    if (point != kNoPoint) range_m[cell] = sweep.range_m[point];
+  }
+  return range_m;
+}
+
+std::vector<std::uint8_t> occupied_cells(std::span<const float> range_of_cell_m) {
+  std::vector<std::uint8_t> occupied(range_of_cell_m.size());
+  mark_occupied(range_of_cell_m.data(), occupied.size(), occupied.data());
+  return occupied;
+}
+
 std::vector<std::uint32_t> cells_in_order(std::span<const std::uint8_t> occupied,
                                           std::span<const float> range_m, const SensorModel& model,
                                           const SweepGrid& grid, int threads) {
@@ -206,7 +209,8 @@ PointOrder find_order(const SensorModel& model, const GriddedSweep& sweep,
   if (walk.empty()) return {};
   SweepGrid grid = sweep.grid;
   const std::size_t columns = grid.column_count();
-  const CellImage image = image_of(sweep);
+  const auto range_m = ranges_by_cell(sweep);
+  const auto occupied = occupied_cells(range_m);
   std::vector<OrderKind> kinds;
   WalkSummary summary;
   if (firing_descending) {
@@ -222,10 +226,9 @@ PointOrder find_order(const SensorModel& model, const GriddedSweep& sweep,
   std::size_t fewest = most_moves(walk.size()) + 1;
   for (const OrderKind kind : kinds) {
     grid.order.kind = kind;
-    if (kind != OrderKind::column_major)
-      grid.order.seam_tick = find_seam(model, grid, summary.ends, image.range_m);
-    const auto expected = cells_in_order(image.occupied, image.range_m, model, grid);
-    const std::size_t moved = count_moves(expected, walk, image.occupied.size());
+    if (kind != OrderKind::column_major) grid.order.seam_tick = find_seam(model, grid, summary.ends, range_m);
+    const auto expected = cells_in_order(occupied, range_m, model, grid);
+    const std::size_t moved = count_moves(expected, walk, occupied.size());
     if (moved >= fewest) continue;
     fewest = moved;
     best = grid.order;

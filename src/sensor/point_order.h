@@ -12,6 +12,10 @@
 
 namespace pointreel {
 
+// By cell, row * columns + column: the ranges of a sweep's points, 0 where there is none, and which are not 0.
+std::vector<float> ranges_by_cell(const GriddedSweep& sweep);
+std::vector<std::uint8_t> occupied_cells(std::span<const float> range_of_cell_m);
+
 // The occupied cells (row * column_count + column) in the order of the points, but for the moved ones
 // (order_moves.h). `occupied`: per cell, 0 or 1. `range_m`: per cell, as decoded; only row_azimuth looks at
 // it, and only where occupied. Order none: rows from top to bottom. Deterministic.

@@ -122,7 +122,6 @@ TEST_F(Temporal, ALostPacketCostsTheRestOfItsGroup) {
   }
 }
 
-// One key frame a second, 5 % of the packets gone: a chain of ten keeps 76 % on average.
 // Decoded in one call of any number of threads or packet by packet; with all packets, without one of a group,
 // and with a damaged key frame.
 TEST_F(Temporal, GroupsDecodeSideBySideAsTheyDoOneAfterTheOther) {
@@ -160,6 +159,7 @@ TEST_F(Temporal, GroupsDecodeSideBySideAsTheyDoOneAfterTheOther) {
   }
 }
 
+// One key frame a second, 5 % of the packets gone: a chain of ten keeps 76 % on average.
 TEST_F(Temporal, RandomLossesAreReportedAndMostSweepsArrive) {
   const auto drive = clouds_of(simulated_drive(60));
   const auto options = options_with(Effort::balanced, 10);

@@ -16,6 +16,7 @@
 #include "plane_scene.h"
 #include "pointreel/io.h"
 #include "pointreel/simulator.h"
+#include "sensor/point_order.h"
 #include "sensor/projection.h"
 #include "sensor/sensor_estimator.h"
 #include "support/clouds.h"
