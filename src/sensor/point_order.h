@@ -12,7 +12,8 @@
 
 namespace pointreel {
 
-// By cell, row * columns + column: the ranges of a sweep's points, 0 where there is none, and which are not 0.
+// By cell, row * columns + column: the ranges of a sweep's points, 0 where there is none, and which are not
+// 0.
 std::vector<float> ranges_by_cell(const GriddedSweep& sweep);
 std::vector<std::uint8_t> occupied_cells(std::span<const float> range_of_cell_m);
 
