@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <thread>
 
 namespace pointreel {
@@ -32,6 +33,20 @@ void parallel_for(std::size_t count, int threads, const Task& task) {
   std::atomic<std::size_t> next{0};
   run_with_others(workers - 1, [&] {
     for (std::size_t i = next.fetch_add(1); i < count; i = next.fetch_add(1)) task(i);
+  });
+}
+
+// What else to do while a part of the work keeps fewer threads busy than there are.
+using BesideTasks = std::span<const std::function<void()>>;
+
+// Calls task(i) for each i as above, and then each of `beside` on whatever thread is free.
+template <class Task>
+void parallel_for(std::size_t count, int threads, BesideTasks beside, const Task& task) {
+  parallel_for(count + beside.size(), threads, [&](std::size_t i) {
+    if (i < count)
+      task(i);
+    else
+      beside[i - count]();
   });
 }
 

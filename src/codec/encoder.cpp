@@ -1,4 +1,5 @@
 #include <string>
+#include <utility>
 
 #include "codec/method.h"
 #include "pointreel/codec.h"
@@ -23,7 +24,19 @@ const StreamHeader& Encoder::header() const {
   return implementation_->header();
 }
 
-Result<std::vector<Packet>> Encoder::encode(PointCloud sweep, const std::optional<Pose>& T_world_sensor) {
+Encoder::Packets Encoder::encode(PointCloud sweep, const std::optional<Pose>& T_world_sensor) {
+  return implementation_->encode({std::move(sweep), T_world_sensor});
+}
+
+void Encoder::encode_all(const NextSweep& next, const TakePackets& take) {
+  implementation_->encode_all(next, take);
+}
+
+Encoder::Packets Encoder::finish() {
+  return implementation_->finish();
+}
+
+Result<void> require_whole_fields(const PointCloud& sweep) {
   for (const Field& field : sweep.fields) {
     if (field.size() != sweep.size()) {
       return Error{ErrorCode::invalid_argument, "field " + field.name + " has " +
@@ -31,11 +44,7 @@ Result<std::vector<Packet>> Encoder::encode(PointCloud sweep, const std::optiona
                                                     std::to_string(sweep.size()) + " points"};
     }
   }
-  return implementation_->encode(std::move(sweep), T_world_sensor);
-}
-
-Result<std::vector<Packet>> Encoder::finish() {
-  return implementation_->finish();
+  return {};
 }
 
 }  // namespace pointreel

@@ -68,7 +68,7 @@ Result<Head> decode_head(const SensorModel& model, bool predicted, ByteReader& r
 
 Result<GriddedPlanes> decode_gridded_planes(const GeometrySetting& setting, const GriddedPlanes* reference,
                                             ByteReader& reader) {
-  const auto& [model, max_error_m, effort, threads, plane_stage, warp_memory] = setting;
+  const auto& [model, max_error_m, effort, threads, plane_stage, warp_memory, beside] = setting;
   auto head = decode_head(model, reference != nullptr, reader);
   if (!head) return head.error();
   const CodingGrid coding(model, head->grid);
@@ -81,33 +81,42 @@ Result<GriddedPlanes> decode_gridded_planes(const GeometrySetting& setting, cons
   return GriddedPlanes{std::move(head->grid), *std::move(tiles)};
 }
 
-Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size_t points_out,
-                                       const CodedImage* reference, ByteReader& reader) {
-  const auto& [model, max_error_m, effort, threads, plane_stage, warp_memory] = setting;
-  const auto head = decode_head(model, reference != nullptr, reader);
+Result<DecodedCells> decode_cells(const GeometrySetting& setting, const CodedImage* reference,
+                                  ByteReader& reader, CodedImage& decoded_image) {
+  const auto& [model, max_error_m, effort, threads, plane_stage, warp_memory, beside] = setting;
+  auto head = decode_head(model, reference != nullptr, reader);
   if (!head) return head.error();
-  const SweepGrid* grid = &head->grid;
-  const CodingGrid coding(model, *grid);
+  const SweepGrid& grid = head->grid;
+  CodingGrid coding(model, grid);
   std::optional<Prediction> prediction;
   if (reference != nullptr)
     prediction.emplace(Prediction{reference->reference, reference->planes, *head->T_ref_cur});
   PlaneSection planes;
   if (plane_stage != PlaneStage::none) {
-    const SensorRays rays = rays_of(model, *grid, coding);
+    const SensorRays rays = rays_of(model, grid, coding);
     const auto earlier = earlier_planes(prediction);
-    auto tiles = decode_planes({model, *grid, coding, max_error_m, threads, plane_stage}, rays,
+    auto tiles = decode_planes({model, grid, coding, max_error_m, threads, plane_stage}, rays,
                                earlier ? &*earlier : nullptr, reader);
     if (!tiles) return tiles.error();
     planes.tiles = *std::move(tiles);
     planes.range_m = ranges_on_planes_m(rays, planes.tiles, threads);
   }
   GridImage image = coding.empty_image();
-  auto states = decode_image({model, *grid, head->quantiser, effort, threads, warp_memory, planes.range_m},
-                             prediction ? &*prediction : nullptr, reader, image);
+  auto states =
+      decode_image({model, grid, head->quantiser, effort, threads, warp_memory, planes.range_m, beside},
+                   prediction ? &*prediction : nullptr, reader, image);
   if (!states) return states.error();
+  auto range_of_cell_m = coding.ranges_of_cells(image, threads);
+  if (reference != nullptr) draw_together(warp_memory.image, head->quantiser.step_m, image);
+  decoded_image = {{grid, std::move(image), *std::move(states)}, std::move(planes.tiles)};
+  return DecodedCells{std::move(head->grid), std::move(coding), std::move(range_of_cell_m)};
+}
 
-  const auto range_of_cell_m = coding.ranges_of_cells(image, threads);
-  auto cells = cells_in_order(occupied_cells(range_of_cell_m), range_of_cell_m, model, *grid, threads);
+Result<DecodedGeometry> decode_points(const PointsSetting& setting, std::size_t points_out,
+                                      const DecodedCells& decoded_cells, ByteReader& reader) {
+  const auto& [model, max_error_m, threads] = setting;
+  const auto& [grid, coding, range_of_cell_m] = decoded_cells;
+  auto cells = cells_in_order(occupied_cells(range_of_cell_m), range_of_cell_m, model, grid, threads);
   if (cells.size() > points_out) {
     return Error{ErrorCode::corrupt, "its grid holds " + std::to_string(cells.size()) +
                                          " points, more than its " + std::to_string(points_out)};
@@ -115,7 +124,7 @@ Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size
   const auto moves = decode_moves(cells.size(), get_section(reader));
   if (!moves) return moves.error();
   if (!moves->empty()) cells = apply_moves(cells, *moves);
-  auto positions = positions_of_cells(RayTable(model, *grid), range_of_cell_m, threads);
+  auto positions = positions_of_cells(RayTable(model, grid), range_of_cell_m, threads);
   const auto corrections = decode_corrections(get_section(reader), cells.size());
   if (!corrections) return corrections.error();
   const CorrectionSteps steps(max_error_m);
@@ -142,9 +151,9 @@ Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size
   stray_indices.reserve(strays.size());
   for (const Stray& stray : strays) stray_indices.push_back(stray.index);
   result.geometry = merged(coding, cells, range_of_cell_m, stray_indices, threads);
-  result.geometry.order_kept = grid->order.kind != OrderKind::none;
-  if (grid->order.in_bursts) {
-    auto bursts = decode_bursts(firing_places(model, *grid, cells, result.geometry), get_section(reader));
+  result.geometry.order_kept = grid.order.kind != OrderKind::none;
+  if (grid.order.in_bursts) {
+    auto bursts = decode_bursts(firing_places(model, grid, cells, result.geometry), get_section(reader));
     if (!bursts) return bursts.error();
     result.geometry.bursts = *std::move(bursts);
   }
@@ -152,8 +161,6 @@ Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size
   for_each_grid_point(points_out, stray_indices, threads,
                       [&](std::size_t i, std::size_t k) { result.positions[i] = positions[cells[k]]; });
   for (const Stray& stray : strays) result.positions[stray.index] = stray.position;
-  if (reference != nullptr) draw_together(warp_memory.image, head->quantiser.step_m, image);
-  result.image = {{*grid, std::move(image), *std::move(states)}, std::move(planes.tiles)};
   return result;
 }
 

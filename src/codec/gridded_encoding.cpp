@@ -45,19 +45,15 @@ void put_quantiser(ByteWriter& writer, const RangeQuantiser& quantiser) {
 
 }  // namespace
 
-EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud& cloud, GriddedSweep sweep,
-                               SweepCells sweep_cells, std::span<const std::uint32_t> bursts,
-                               const Prediction* prediction, ByteWriter& writer,
-                               FrameStatistics& statistics) {
-  const auto& [model, max_error_m, effort, threads, plane_stage, warp_memory] = setting;
-  auto& [quantiser, coding, image] = sweep_cells;
-
-  // Predict and code.
-  ByteWriter image_bytes;
+EncodedCells encode_cells(const GeometrySetting& setting, const GriddedSweep& sweep, SweepCells& cells,
+                          const Prediction* prediction, FrameStatistics& statistics) {
+  const auto& [model, max_error_m, effort, threads, plane_stage, warp_memory, beside] = setting;
+  auto& [quantiser, coding, image] = cells;
+  ByteWriter writer;
   std::optional<Prediction> rounded;
   if (prediction != nullptr) {
-    put_relative_pose(image_bytes, prediction->T_ref_cur);
-    statistics.grid_bits += bits_of(image_bytes.size());
+    put_relative_pose(writer, prediction->T_ref_cur);
+    statistics.grid_bits += bits_of(writer.size());
     rounded.emplace(Prediction{prediction->reference, prediction->planes, *quantised(prediction->T_ref_cur)});
   }
   PlaneSection planes;
@@ -66,13 +62,26 @@ EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud&
     const GridImage tolerance =
         coding.image_of(range_tolerances_m(sweep, coding.rows() * coding.columns(), max_error_m), threads);
     planes = encode_planes({model, sweep.grid, coding, max_error_m, threads, plane_stage},
-                           earlier ? &*earlier : nullptr, image, tolerance, image_bytes, statistics);
+                           earlier ? &*earlier : nullptr, image, tolerance, writer, statistics);
   }
-  auto states = encode_image({model, sweep.grid, quantiser, effort, threads, warp_memory, planes.range_m},
-                             rounded ? &*rounded : nullptr, image, image_bytes, statistics);
+  auto states =
+      encode_image({model, sweep.grid, quantiser, effort, threads, warp_memory, planes.range_m, beside},
+                   rounded ? &*rounded : nullptr, image, writer, statistics);
+  EncodedCells encoded;
+  encoded.bytes = writer.take();
+  encoded.range_of_cell_m = coding.ranges_of_cells(image, threads);
+  if (prediction != nullptr) draw_together(warp_memory.image, quantiser.step_m, image);
+  encoded.image = {{sweep.grid, std::move(image), std::move(states)}, std::move(planes.tiles)};
+  return encoded;
+}
 
+EncodedPoints encode_points(const PointsSetting& setting, const PointCloud& cloud, GriddedSweep sweep,
+                            const SweepCells& sweep_cells, const EncodedCells& encoded_cells,
+                            std::span<const std::uint32_t> bursts, ByteWriter& writer,
+                            FrameStatistics& statistics) {
+  const auto& [model, max_error_m, threads] = setting;
+  const std::span<const float> range_of_cell_m = encoded_cells.range_of_cell_m;
   // The points as the decoder will have them, in its sequence.
-  const auto range_of_cell_m = coding.ranges_of_cells(image, threads);
   const auto occupied = occupied_cells(range_of_cell_m);
   auto cells = cells_of_points(sweep);
   const auto moves = encode_moves(settle_order(model, occupied, range_of_cell_m, cells, sweep, threads));
@@ -82,13 +91,13 @@ EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud&
 
   const auto grid_bytes = encode_sweep_grid(model, sweep.grid);
   put_section(writer, grid_bytes);
-  put_quantiser(writer, quantiser);
-  writer.put(image_bytes.bytes());
+  put_quantiser(writer, sweep_cells.quantiser);
+  writer.put(encoded_cells.bytes);
 
   const auto corrections = find_corrections(RayTable(model, sweep.grid), cloud, range_of_cell_m,
                                             sweep.point_of_cell, cells, max_error_m, threads);
 
-  EncodedGeometry encoded;
+  EncodedPoints encoded;
   std::vector<Stray> strays;
   std::vector<std::uint32_t> stray_indices;
   if (order_kept) {
@@ -116,7 +125,7 @@ EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud&
   statistics.stray_bits += bits_of(stray_bytes.size());
   statistics.corrected_points += static_cast<std::uint32_t>(corrections.size());
   statistics.stray_points += static_cast<std::uint32_t>(strays.size());
-  encoded.geometry = merged(coding, cells, range_of_cell_m, stray_indices, threads);
+  encoded.geometry = merged(sweep_cells.coding, cells, range_of_cell_m, stray_indices, threads);
   encoded.geometry.order_kept = order_kept;
   if (sweep.grid.order.in_bursts) {
     const auto burst_bytes = encode_bursts(bursts, firing_places(model, sweep.grid, cells, encoded.geometry));
@@ -124,8 +133,6 @@ EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud&
     statistics.order_bits += bits_of(burst_bytes.size());
     encoded.geometry.bursts.assign(bursts.begin(), bursts.end());
   }
-  if (prediction != nullptr) draw_together(warp_memory.image, quantiser.step_m, image);
-  encoded.image = {{std::move(sweep.grid), std::move(image), std::move(states)}, std::move(planes.tiles)};
   return encoded;
 }
 

@@ -1,6 +1,9 @@
 // The geometry of a sweep on its sensor's grid, as bytes: the core of method `mixture`.
 //
-//   cells -> planes -> code bands -> order -> verify every point, correct those that miss -> strays
+//   cells:  planes -> code bands
+//   points: order -> verify every point, correct those that miss -> strays
+//
+// No sweep needs another one's points: they are coded while the next sweep's cells are.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +38,7 @@ struct CodedImage {
   PlaneTiles planes;         // of method `planes`
 };
 
-// What both sides know of the sensor and the stream.
+// What both sides know of the sensor and the stream: all of it for the cells, and for the points.
 struct GeometrySetting {
   const SensorModel& model;
   double max_error_m;
@@ -43,37 +46,64 @@ struct GeometrySetting {
   int threads;
   PlaneStage planes;
   WarpMemory& warp_memory;  // of the stream
+  BesideTasks beside;       // there are few bands
+};
+struct PointsSetting {
+  const SensorModel& model;
+  double max_error_m;
+  int threads;
 };
 
 GeometrySetting geometry_setting(const StreamHeader& header, const SensorModel& model, int threads,
-                                 WarpMemory& warp_memory);
+                                 WarpMemory& warp_memory, BesideTasks beside = {});
 
 // Those of a prediction, if there is one.
 std::optional<EarlierPlanes> earlier_planes(const std::optional<Prediction>& prediction);
 
-struct EncodedGeometry {
-  CodedGeometry geometry;
+// The cells of a sweep, coded.
+struct EncodedCells {
+  std::vector<std::uint8_t> bytes;
+  std::vector<float> range_of_cell_m;  // as decoded, by cell of the sensor grid; 0: no return
   CodedImage image;
+};
+
+// `sweep`: a projection; `cells`: its cells, whose image is used up. `prediction`: nullptr for a frame by
+// itself; its pose is rounded for the stream.
+EncodedCells encode_cells(const GeometrySetting& setting, const GriddedSweep& sweep, SweepCells& cells,
+                          const Prediction* prediction, FrameStatistics& statistics);
+
+struct EncodedPoints {
+  CodedGeometry geometry;
   std::vector<std::uint32_t> output_order;  // index in the input of each output point
 };
 
-// All points of `cloud` must be finite. `sweep`: its projection; `sweep_cells`: its cells. `bursts`: those of
-// the sort that was undone, if one was (sensor/burst_sort.h). `prediction`: nullptr for a frame by itself;
-// its pose is rounded for the stream. Appends to `writer`.
-EncodedGeometry encode_gridded(const GeometrySetting& setting, const PointCloud& cloud, GriddedSweep sweep,
-                               SweepCells sweep_cells, std::span<const std::uint32_t> bursts,
-                               const Prediction* prediction, ByteWriter& writer, FrameStatistics& statistics);
+// All points of `cloud` must be finite. `bursts`: those of the sort that was undone, if one was
+// (sensor/burst_sort.h). Appends the geometry to `writer`.
+EncodedPoints encode_points(const PointsSetting& setting, const PointCloud& cloud, GriddedSweep sweep,
+                            const SweepCells& sweep_cells, const EncodedCells& encoded_cells,
+                            std::span<const std::uint32_t> bursts, ByteWriter& writer,
+                            FrameStatistics& statistics);
 
+struct DecodedCells {
+  SweepGrid grid;
+  CodingGrid coding;
+  std::vector<float> range_of_cell_m;
+};
+
+// The points of decoded cells.
 struct DecodedGeometry {
   CodedGeometry geometry;
-  CodedImage image;
   std::vector<Point3f> positions;
 };
 
-// `reference`: nullptr for a frame by itself. Error: truncated or corrupt; also when there are not
-// `points_out` points.
-Result<DecodedGeometry> decode_gridded(const GeometrySetting& setting, std::size_t points_out,
-                                       const CodedImage* reference, ByteReader& reader);
+// `reference`: nullptr for a frame by itself. `image`: what the next sweep can be predicted from, on success;
+// may be the reference. Error: truncated or corrupt.
+Result<DecodedCells> decode_cells(const GeometrySetting& setting, const CodedImage* reference,
+                                  ByteReader& reader, CodedImage& image);
+
+// Error: truncated or corrupt; also when there are not `points_out` points.
+Result<DecodedGeometry> decode_points(const PointsSetting& setting, std::size_t points_out,
+                                      const DecodedCells& decoded_cells, ByteReader& reader);
 
 // The planes of a sweep and the grid that they are on.
 struct GriddedPlanes {

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "base/parallel.h"
 #include "codec/sections.h"
 #include "predict/band_coding.h"
 #include "predict/priors.h"
@@ -83,7 +82,7 @@ std::vector<BandState> encode_image(const ImageSetting& setting, const Predictio
   put_bands(writer, bands);
   auto states = starting_states(kind, setting.quantiser.step_m, bands, prediction);
   std::vector<CodedBand> coded(bands.size());
-  parallel_for(bands.size(), setting.threads,
+  parallel_for(bands.size(), setting.threads, setting.beside,
                [&](std::size_t b) { coded[b] = encode_band(band_setting, bands[b], image, states[b]); });
   for (const CodedBand& band : coded) {
     put_section(writer, band.mask);
@@ -111,7 +110,7 @@ Result<std::vector<BandState>> decode_image(const ImageSetting& setting, const P
       kind, setting.quantiser, reference_image(setting, prediction), {}, setting.known_range_m};
   auto states = starting_states(kind, setting.quantiser.step_m, bands, prediction);
   std::vector<Result<void>> results(bands.size());
-  parallel_for(bands.size(), setting.threads, [&](std::size_t b) {
+  parallel_for(bands.size(), setting.threads, setting.beside, [&](std::size_t b) {
     results[b] = decode_band(band_setting, bands[b], masks[b], ranges[b], image, states[b]);
   });
   for (const auto& result : results) {

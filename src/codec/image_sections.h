@@ -5,6 +5,7 @@
 #pragma once
 
 #include "base/bytes.h"
+#include "base/parallel.h"
 #include "planes/plane_tiles.h"
 #include "pointreel/codec.h"
 #include "predict/grid_image.h"
@@ -23,6 +24,7 @@ struct ImageSetting {
   int threads;
   WarpMemory& warp_memory;               // of the stream
   std::span<const float> known_range_m;  // BandSetting::known_range_m
+  BesideTasks beside;                    // there are few bands
 };
 
 // The earlier sweep that a predicted frame starts from, and the motion since, as the stream has it.

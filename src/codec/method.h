@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "pointreel/codec.h"
@@ -12,11 +13,22 @@ namespace pointreel {
 
 class Encoder::Implementation {
  public:
+  using Packets = Encoder::Packets;
+  using NextSweep = Encoder::NextSweep;
+  using TakePackets = Encoder::TakePackets;
   virtual ~Implementation() = default;
   virtual const StreamHeader& header() const = 0;
-  virtual Result<std::vector<Packet>> encode(PointCloud sweep, const std::optional<Pose>& T_world_sensor) = 0;
-  virtual Result<std::vector<Packet>> finish() = 0;
+  virtual Packets encode(PosedSweep sweep) = 0;
+  virtual void encode_all(const NextSweep& next, const TakePackets& take) {
+    while (auto sweep = next()) {
+      if (!take(encode(*std::move(sweep)))) return;
+    }
+  }
+  virtual Packets finish() = 0;
 };
+
+// Error: invalid_argument for a field whose number of values is not that of the points.
+Result<void> require_whole_fields(const PointCloud& sweep);
 
 class Decoder::Implementation {
  public:

@@ -1,6 +1,7 @@
 // The sensor's grid, the way back: sensor model -> planes -> cells and ranges -> points in order ->
 // corrections, strays -> fields.
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -29,45 +30,31 @@ class GroupDecoder {
  public:
   explicit GroupDecoder(const StreamHeader& header) : header_(header) {}
 
-  Result<DecodedSweep> decode(const Packet& packet, int threads) {
-    ByteReader reader(packet.payload);
-    const auto begun = begin(packet, reference_frame_, reader);
-    if (!begun) return begun.error();
-    const SweepCoding coding = *begun;
-    auto geometry =
-        coding == SweepCoding::scattered
-            ? decode_scattered_sweep(packet, reader)
-            : decode_gridded(geometry_setting(header_, model_, threads, warp_memory_), packet.points_out,
-                             coding == SweepCoding::predicted ? &last_image_ : nullptr, reader);
-    if (!geometry) return geometry.error();
-    const std::size_t field_bytes = ByteReader(reader).rest().size();  // a copy: rest() takes them
-    DecodedSweep sweep;
-    sweep.frame = packet.frame;
-    sweep.cloud.positions = std::move(geometry->positions);
-    if (sweep.cloud.count_non_finite() > 0)
-      return Error{ErrorCode::corrupt, "it holds a position that is not finite"};
-    auto fields = decode_fields(geometry->geometry, threads, reader);
-    if (!fields) return fields.error();
-    if (!reader.rest().empty()) return Error{ErrorCode::corrupt, "bytes follow its fields"};
-    if (!geometry->image.reference.image.range_m.empty()) {
-      last_image_ = std::move(geometry->image);
-      reference_frame_ = packet.frame;
-      if (header_.method == Method::planes) {
-        last_planes_ = {last_image_.reference.grid, last_image_.planes};
-        planes_frame_ = packet.frame;
+  // All packets of one group, or what is left of it. With several threads the points of a sweep are decoded
+  // while the cells of the next one are.
+  void decode(std::span<const Packet> packets, int threads, std::span<Result<DecodedSweep>> sweeps) {
+    std::optional<Result<BegunSweep>> last;
+    for (std::size_t i = 0; i < packets.size(); ++i) {
+      bool spoilt = false;
+      const std::function<void()> finish_last = [&] {
+        if (last)
+          spoilt = !finish(packets[i - 1], *std::exchange(last, std::nullopt), threads, sweeps[i - 1]);
+      };
+      if (threads == 1) finish_last();
+      auto begun = begin(packets[i], threads, BesideTasks(&finish_last, 1));
+      finish_last();  // where there was no image to decode
+      if (spoilt && (!begun || begun->coding == SweepCoding::predicted)) {
+        forget_reference();
+        if (begun) begun = reference_is_missing(packets[i]);
       }
+      last = std::move(begun);
     }
-    sweep.cloud.fields = *std::move(fields);
-    if (!geometry->geometry.bursts.empty()) redo_sort(geometry->geometry.bursts, sweep.cloud);
-    sweep.order_kept = geometry->geometry.order_kept;
-    sweep.temporal = coding == SweepCoding::predicted;
-    sweep.field_bytes = field_bytes;
-    return sweep;
+    if (last && !finish(packets.back(), *std::move(last), threads, sweeps.back())) forget_reference();
   }
 
   Result<SweepPlanes> decode_planes(const Packet& packet, int threads) {
     ByteReader reader(packet.payload);
-    const auto coding = begin(packet, planes_frame_, reader);
+    const auto coding = coding_of(packet, planes_frame_, reader);
     if (!coding) return coding.error();
     if (*coding == SweepCoding::scattered) return SweepPlanes{packet.frame, {}, {}};
     auto planes = decode_gridded_planes(geometry_setting(header_, model_, threads, warp_memory_),
@@ -80,13 +67,77 @@ class GroupDecoder {
   }
 
  private:
+  struct BegunSweep {
+    SweepCoding coding;
+    std::optional<DecodedCells> cells;  // of a sweep on the grid
+    ByteReader reader;                  // of what is left of the payload
+  };
+
+  // `beside` are not called where there is no image to decode.
+  Result<BegunSweep> begin(const Packet& packet, int threads, BesideTasks beside) {
+    ByteReader reader(packet.payload);
+    const auto coding = coding_of(packet, reference_frame_, reader);
+    if (!coding) return coding.error();
+    if (*coding == SweepCoding::scattered) return BegunSweep{*coding, {}, reader};
+    auto cells =
+        decode_cells(geometry_setting(header_, model_, threads, warp_memory_, beside),
+                     *coding == SweepCoding::predicted ? &last_image_ : nullptr, reader, last_image_);
+    if (!cells) return cells.error();
+    reference_frame_ = packet.frame;
+    if (header_.method == Method::planes) {
+      last_planes_ = {last_image_.reference.grid, last_image_.planes};
+      planes_frame_ = packet.frame;
+    }
+    return BegunSweep{*coding, *std::move(cells), reader};
+  }
+
+  // False when a sweep whose cells were decoded has damaged points: it is no reference then.
+  bool finish(const Packet& packet, Result<BegunSweep> begun, int threads,
+              Result<DecodedSweep>& sweep) const {
+    sweep = begun ? finished(packet, *std::move(begun), threads) : begun.error();
+    if (sweep) return true;
+    sweep = in_frame(packet, sweep.error());
+    return !begun;
+  }
+
+  Result<DecodedSweep> finished(const Packet& packet, BegunSweep begun, int threads) const {
+    ByteReader& reader = begun.reader;
+    auto geometry = !begun.cells ? decode_scattered_sweep(packet, reader)
+                                 : decode_points({model_, header_.max_error_m, threads}, packet.points_out,
+                                                 *begun.cells, reader);
+    if (!geometry) return geometry.error();
+    const std::size_t field_bytes = ByteReader(reader).rest().size();  // a copy: rest() takes them
+    DecodedSweep sweep;
+    sweep.frame = packet.frame;
+    sweep.cloud.positions = std::move(geometry->positions);
+    if (sweep.cloud.count_non_finite() > 0)
+      return Error{ErrorCode::corrupt, "it holds a position that is not finite"};
+    auto fields = decode_fields(geometry->geometry, threads, reader);
+    if (!fields) return fields.error();
+    if (!reader.rest().empty()) return Error{ErrorCode::corrupt, "bytes follow its fields"};
+    sweep.cloud.fields = *std::move(fields);
+    if (!geometry->geometry.bursts.empty()) redo_sort(geometry->geometry.bursts, sweep.cloud);
+    sweep.order_kept = geometry->geometry.order_kept;
+    sweep.temporal = begun.coding == SweepCoding::predicted;
+    sweep.field_bytes = field_bytes;
+    return sweep;
+  }
+
+  void forget_reference() {
+    reference_frame_.reset();
+    planes_frame_.reset();
+  }
+  static Error reference_is_missing(const Packet& packet) {
+    return {ErrorCode::corrupt,
+            "its reference frame " + std::to_string(packet.reference_frame) + " was not decoded before it"};
+  }
+
   // How the packet is coded, once its model is known. `reference_frame`: whose ranges, or planes, are known.
-  Result<SweepCoding> begin(const Packet& packet, std::optional<std::uint32_t>& reference_frame,
-                            ByteReader& reader) {
+  Result<SweepCoding> coding_of(const Packet& packet, std::optional<std::uint32_t>& reference_frame,
+                                ByteReader& reader) {
     if (packet.kind == FrameKind::key) {
       model_frame_.reset();
-      reference_frame_.reset();
-      planes_frame_.reset();
+      forget_reference();
     }
     if (packet.points_out > kMaxPointsPerSweep) {
       return Error{ErrorCode::resource_limit, "it claims " + std::to_string(packet.points_out) + " points"};
@@ -106,8 +157,7 @@ class GroupDecoder {
       model_frame_ = packet.frame;
     } else if (needs_frame &&
                (coding == SweepCoding::gridded ? model_frame_ : reference_frame) != packet.reference_frame) {
-      return Error{ErrorCode::corrupt, "its reference frame " + std::to_string(packet.reference_frame) +
-                                           " was not decoded before it"};
+      return reference_is_missing(packet);
     }
     if (coding == SweepCoding::predicted && header_.effort == Effort::fast)
       return Error{ErrorCode::corrupt, "effort fast predicts no sweep from another"};
@@ -163,10 +213,9 @@ class MixtureDecoder final : public Decoder::Implementation {
     const int threads_each = std::max(1, threads_ / static_cast<int>(groups));
     if (decoders_.size() < groups) decoders_.resize(groups, GroupDecoder(header_));
     parallel_for(groups, threads_, [&](std::size_t group) {
-      for (std::size_t i = firsts[group]; i < firsts[group + 1]; ++i) {
-        sweeps[i] = decoders_[group].decode(packets[i], threads_each);
-        if (!sweeps[i]) sweeps[i] = in_frame(packets[i], sweeps[i].error());
-      }
+      const std::size_t count = firsts[group + 1] - firsts[group];
+      decoders_[group].decode(packets.subspan(firsts[group], count), threads_each,
+                              std::span(sweeps).subspan(firsts[group], count));
     });
     // The last group may go on in the next call.
     if (groups > 1) std::swap(decoders_.front(), decoders_[groups - 1]);

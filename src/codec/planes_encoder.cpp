@@ -21,13 +21,14 @@ class PlanesEncoder final : public Encoder::Implementation {
 
   const StreamHeader& header() const override { return header_; }
 
-  Result<std::vector<Packet>> encode(PointCloud sweep, const std::optional<Pose>& T_world_sensor) override {
-    group_.push_back({std::move(sweep), T_world_sensor.value_or(Pose::Identity())});
+  Packets encode(PosedSweep sweep) override {
+    if (const auto valid = require_whole_fields(sweep.cloud); !valid) return valid.error();
+    group_.push_back({std::move(sweep.cloud), sweep.T_world_sensor.value_or(Pose::Identity())});
     if (static_cast<int>(group_.size()) < header_.planes.group) return std::vector<Packet>{};
     return finish();
   }
 
-  Result<std::vector<Packet>> finish() override {
+  Packets finish() override {
     if (group_.empty()) return std::vector<Packet>{};
     auto packets = encode_group();
     next_frame_ += static_cast<std::uint32_t>(group_.size());
@@ -42,7 +43,7 @@ class PlanesEncoder final : public Encoder::Implementation {
     Pose T_world_sensor;
   };
 
-  Result<std::vector<Packet>> encode_group() {
+  Packets encode_group() {
     const std::size_t count = group_.size();
     const std::size_t key = count / 2;  // the middle one: least motion to the others
 

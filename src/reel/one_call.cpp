@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -18,18 +19,23 @@ Result<std::vector<std::uint8_t>> encode(std::span<const PointCloud> sweeps, con
   std::ostringstream stream;
   auto writer = ReelWriter::create(stream, encoder->header());
   if (!writer) return writer.error();
-  const auto write = [&](const Result<std::vector<Packet>>& packets) -> Result<void> {
-    if (!packets) return packets.error();
-    for (const Packet& packet : *packets) {
-      if (auto written = writer->write(packet); !written) return written;
-    }
-    return {};
+  Result<void> good;
+  const auto write = [&](const Encoder::Packets& packets) {
+    if (!packets) good = packets.error();
+    for (std::size_t i = 0; good && i < packets->size(); ++i) good = writer->write((*packets)[i]);
+    return static_cast<bool>(good);
   };
-  for (std::size_t i = 0; i < sweeps.size(); ++i) {
-    const auto pose = T_world_sensor.empty() ? std::optional<Pose>() : T_world_sensor[i];
-    if (auto written = write(encoder->encode(sweeps[i], pose)); !written) return written.error();
-  }
-  if (auto written = write(encoder->finish()); !written) return written.error();
+  std::size_t taken = 0;
+  const auto next = [&]() -> std::optional<PosedSweep> {
+    if (taken == sweeps.size()) return std::nullopt;
+    PosedSweep sweep{sweeps[taken], {}};
+    if (!T_world_sensor.empty()) sweep.T_world_sensor = T_world_sensor[taken];
+    ++taken;
+    return sweep;
+  };
+  encoder->encode_all(next, write);
+  if (good) write(encoder->finish());
+  if (!good) return good.error();
   if (auto written = writer->finish(); !written) return written.error();
   const std::string_view bytes = stream.view();
   return std::vector<std::uint8_t>(bytes.begin(), bytes.end());

@@ -122,17 +122,36 @@ TEST_F(Temporal, ALostPacketCostsTheRestOfItsGroup) {
   }
 }
 
+// What its points give away is damaged as a whole: the next sweep is not predicted from its cells either.
+TEST_F(Temporal, ASweepWithDamagedPointsIsNoReference) {
+  for (const Effort effort : {Effort::fast, Effort::balanced}) {
+    const auto options = options_with(effort, 3);  // frames 0 1 2, 3 4 5, 6
+    auto packets = encode_all(sweeps_, options);
+    packets[1].payload.push_back(0);
+    for (const int threads : {1, 2}) {
+      const auto sweeps = decoder_of(options, threads).decode(packets);
+      expect_error(sweeps[1], ErrorCode::corrupt, {"frame 1", "bytes follow"});
+      if (effort == Effort::balanced)
+        expect_error(sweeps[2], ErrorCode::corrupt, {"frame 2", "reference frame 1 was not decoded"});
+      else
+        EXPECT_TRUE(sweeps[2]);
+      for (const std::size_t whole : {0u, 3u, 4u, 5u, 6u}) EXPECT_TRUE(sweeps[whole]) << whole;
+    }
+  }
+}
+
 // Decoded in one call of any number of threads or packet by packet; with all packets, without one of a group,
-// and with a damaged key frame.
+// with a damaged key frame, and with one whose cells can be decoded but not its points.
 TEST_F(Temporal, GroupsDecodeSideBySideAsTheyDoOneAfterTheOther) {
   for (const Effort effort : {Effort::fast, Effort::balanced}) {
     const auto options = options_with(effort, 2);  // frames 0 1, 2 3, 4 5, 6
     const auto whole = encode_all(sweeps_, options);
-    std::vector<Packet> without_key = whole, damaged = whole, without_first = whole;
+    std::vector<Packet> without_key = whole, damaged = whole, spoilt = whole, without_first = whole;
     without_key.erase(without_key.begin() + 4);
     damaged[2].payload.resize(damaged[2].payload.size() / 2);
+    spoilt[4].payload.push_back(0);
     without_first.erase(without_first.begin());
-    for (const auto& packets : {whole, without_key, damaged, without_first}) {
+    for (const auto& packets : {whole, without_key, damaged, spoilt, without_first}) {
       auto one_by_one = decoder_of(options, 1);
       std::vector<Result<DecodedSweep>> expected;
       for (const Packet& packet : packets) expected.push_back(std::move(one_by_one.decode({&packet, 1})[0]));

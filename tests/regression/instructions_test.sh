@@ -42,10 +42,10 @@ profile encode encode "$folder/drive" -o "$folder/drive.reel" --fields none --th
 profile decode decode "$folder/drive.reel" -o "$folder/decoded" --threads 1
 {
   echo "verb,part,million_instructions"
-  for name in project SweepAlignment::follow warp encode_band encode_gridded; do
+  for name in project SweepAlignment::follow warp encode_band encode_cells encode_points; do
     echo "encode,$name,$(part encode "$name")"
   done
-  for name in warp decode_band decode_gridded; do
+  for name in warp decode_band decode_cells decode_points; do
     echo "decode,$name,$(part decode "$name")"
   done
 } >"$folder/now.csv"

@@ -2,8 +2,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <deque>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "base/parallel.h"
 #include "common/motion_input.h"
@@ -29,51 +32,86 @@ Result<std::vector<Pose>> sweep_poses(const EncodeArguments& arguments,
   return std::vector<Pose>{};
 }
 
+// The inputs, one after the other. Several files are read at once: from some formats that takes longer than
+// encoding.
+class InputSweeps {
+ public:
+  InputSweeps(const std::vector<std::filesystem::path>& paths, const std::vector<Pose>& poses, int threads)
+      : paths_(paths), poses_(poses), threads_(threads) {}
+
+  // None at the end, and when one cannot be read.
+  std::optional<PosedSweep> next() {
+    if (clouds_.empty()) read_some();
+    if (clouds_.empty()) return std::nullopt;
+    if (!clouds_.front()) {
+      error_ = clouds_.front().error();
+      return std::nullopt;
+    }
+    PosedSweep sweep{*std::move(clouds_.front()), {}};
+    if (!poses_.empty()) sweep.T_world_sensor = poses_[read_ - clouds_.size()];
+    clouds_.pop_front();
+    return sweep;
+  }
+
+  const std::optional<Error>& error() const { return error_; }
+
+ private:
+  void read_some() {
+    clouds_.assign(std::min(static_cast<std::size_t>(threads_), paths_.size() - read_), PointCloud{});
+    parallel_for(clouds_.size(), threads_,
+                 [&](std::size_t i) { clouds_[i] = read_cloud(paths_[read_ + i]); });
+    read_ += clouds_.size();
+  }
+
+  const std::vector<std::filesystem::path>& paths_;
+  const std::vector<Pose>& poses_;
+  int threads_;
+  std::deque<Result<PointCloud>> clouds_;  // the next ones
+  std::size_t read_ = 0;                   // files
+  std::optional<Error> error_;
+};
+
 // Encodes until the inputs end or one of them fails; the error of that one, if any, after the packets before
 // it have been written.
 std::optional<Error> encode_sweeps(Encoder& encoder, ReelWriter& writer,
                                    const std::vector<std::filesystem::path>& inputs,
                                    const std::vector<Pose>& poses, int threads, EncodeTotals& totals) {
   Progress progress("encoding", inputs.size());
-  double pending_ms = 0;
-  const auto write = [&](const Result<std::vector<Packet>>& packets) -> std::optional<Error> {
-    if (!packets) return packets.error();
+  std::optional<Error> fault;
+  std::optional<Stopwatch> since_packets(std::in_place);
+  double reading_ms = 0;  // since then, if nothing else was done meanwhile
+  const auto write = [&](const Encoder::Packets& packets) {
+    if (!packets) fault = packets.error();
+    if (fault || packets->empty()) return !fault;
+    const double ms = since_packets->elapsed_ms() - std::exchange(reading_ms, 0);
     for (const Packet& packet : *packets) {
-      if (auto written = writer.write(packet); !written) return written.error();
+      if (auto written = writer.write(packet); !written) {
+        fault = written.error();
+        return false;
+      }
       totals.add(packet);
-      totals.ms_per_frame.push_back(pending_ms / static_cast<double>(packets->size()));
+      totals.ms_per_frame.push_back(ms / static_cast<double>(packets->size()));
     }
-    if (!packets->empty()) pending_ms = 0;
-    return {};
+    progress.advance_to(totals.frames);
+    since_packets.emplace();
+    return true;
   };
-  // As many files at once as there are threads: reading takes about as long as a tenth of encoding.
-  const auto readers = static_cast<std::size_t>(threads);
-  std::optional<Error> input_error;
-  for (std::size_t begin = 0; begin < inputs.size() && !input_error; begin += readers) {
-    std::vector<Result<PointCloud>> clouds(std::min(readers, inputs.size() - begin), PointCloud{});
-    parallel_for(clouds.size(), threads, [&](std::size_t i) { clouds[i] = read_cloud(inputs[begin + i]); });
-    for (std::size_t i = 0; i < clouds.size() && !input_error; ++i) {
-      if (!clouds[i]) {
-        input_error = clouds[i].error();
-        break;
-      }
-      if (begin + i == 0) {
-        for (const Field& field : clouds[i]->fields) totals.fields.push_back(field.name);
-      }
-      const Stopwatch start;
-      const auto packets =
-          encoder.encode(*std::move(clouds[i]), poses.empty() ? std::optional<Pose>{} : poses[begin + i]);
-      pending_ms += start.elapsed_ms();
-      if (auto error = write(packets)) return error;
-      progress.advance_to(begin + i + 1);
+  InputSweeps files(inputs, poses, threads);
+  bool first = true;
+  const auto next = [&] {
+    const Stopwatch start;
+    auto sweep = files.next();
+    if (threads == 1) reading_ms += start.elapsed_ms();
+    if (sweep && std::exchange(first, false)) {
+      for (const Field& field : sweep->cloud.fields) totals.fields.push_back(field.name);
     }
-  }
-  const Stopwatch start;
-  const auto packets = encoder.finish();
-  pending_ms += start.elapsed_ms();
-  if (auto error = write(packets)) return error;
+    return sweep;
+  };
+  encoder.encode_all(next, write);
+  if (!fault) write(encoder.finish());
+  if (fault) return fault;
   if (auto finished = writer.finish(); !finished) return finished.error();
-  return input_error;
+  return files.error();
 }
 
 // The fields that were asked for must be in the first input. An existing output is given up only for a new

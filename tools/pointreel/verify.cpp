@@ -56,7 +56,7 @@ class Verifier {
       verification_.decode_ms.push_back(decode_ms);
       if (const auto done = add_sweep(*sweep); !done) return done.error();
     }
-    if (const auto done = finish_encoding(sweeps.size()); !done) return done.error();
+    if (const auto done = time_encoder(); !done) return done.error();
     for (const Packet& packet : batch) verification_.bytes += serialize(packet).size();
     return {};
   }
@@ -87,11 +87,8 @@ class Verifier {
     verification_.field_bytes += sweep.field_bytes;
     ++verification_.frames;
     keep_fields_of(sweep.cloud, *original);
-    std::optional<Pose> pose;
-    if (!header_.on_sensor_grid()) pose = sweep.T_key_sensor;
-    const Stopwatch start;
-    if (const auto packets = encoder_->encode(*std::move(original), pose); !packets) return packets.error();
-    encode_ms_.push_back(start.elapsed_ms());
+    originals_of_batch_.push_back({*std::move(original), {}});
+    if (!header_.on_sensor_grid()) originals_of_batch_.back().T_world_sensor = sweep.T_key_sensor;
     return {};
   }
 
@@ -115,16 +112,29 @@ class Verifier {
   }
 
   // A group on the uniform grid is encoded at its end: its sweeps share the time.
-  Result<void> finish_encoding(std::size_t sweeps) {
-    if (!header_.on_sensor_grid()) {
-      const Stopwatch start;
-      if (const auto packets = encoder_->finish(); !packets) return packets.error();
-      const double sum_ms = std::accumulate(encode_ms_.begin(), encode_ms_.end(), start.elapsed_ms());
-      encode_ms_.assign(sweeps, sum_ms / static_cast<double>(sweeps));
+  Result<void> time_encoder() {
+    Result<void> good;
+    std::vector<double> encode_ms;
+    std::optional<Stopwatch> start(std::in_place);
+    const auto take = [&](const Encoder::Packets& packets) {
+      encode_ms.push_back(start->elapsed_ms());
+      start.emplace();
+      if (!packets) good = packets.error();
+      return static_cast<bool>(good);
+    };
+    const auto next = [&, i = std::size_t{0}]() mutable -> std::optional<PosedSweep> {
+      if (i == originals_of_batch_.size()) return std::nullopt;
+      return std::move(originals_of_batch_[i++]);
+    };
+    encoder_->encode_all(next, take);
+    if (good && !header_.on_sensor_grid()) {
+      take(encoder_->finish());
+      const double sum_ms = std::accumulate(encode_ms.begin(), encode_ms.end(), 0.0);
+      encode_ms.assign(originals_of_batch_.size(), sum_ms / static_cast<double>(originals_of_batch_.size()));
     }
-    verification_.encode_ms.insert(verification_.encode_ms.end(), encode_ms_.begin(), encode_ms_.end());
-    encode_ms_.clear();
-    return {};
+    originals_of_batch_.clear();
+    verification_.encode_ms.insert(verification_.encode_ms.end(), encode_ms.begin(), encode_ms.end());
+    return good;
   }
 
   const StreamHeader& header_;
@@ -132,7 +142,7 @@ class Verifier {
   Decoder& decoder_;
   int threads_;
   std::optional<Encoder> encoder_;
-  std::vector<double> encode_ms_;  // of this batch
+  std::vector<PosedSweep> originals_of_batch_;  // that the encoder is timed with
   Verification verification_;
 };
 
