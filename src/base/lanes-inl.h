@@ -1,6 +1,6 @@
 // Floats<N>, Ints<N>: N numbers as one value, and what is computed with them.
 //
-// Compiled once per instruction set by Highway (see band_coding.cpp). Every operation is IEEE, lane by lane,
+// Compiled once per instruction set by Highway (base/simd_targets.h). Every operation is IEEE, lane by lane,
 // and sums have one fixed order, so that all instruction sets compute the same bits.
 
 #if defined(POINTREEL_BASE_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)

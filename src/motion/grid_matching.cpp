@@ -1,8 +1,7 @@
 #include "motion/grid_matching.h"
 
-// As in band_coding.cpp.
-#define HWY_DISABLED_TARGETS \
-  (HWY_SSSE3 | HWY_AVX3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
+#include "base/simd_targets.h"
+
 #define HWY_TARGET_INCLUDE "motion/grid_matching.cpp"
 #include "hwy/foreach_target.h"
 //

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/simd_targets.h"
 #include "base/trigonometry.h"
 
-// As in band_coding.cpp.
-#define HWY_DISABLED_TARGETS \
-  (HWY_SSSE3 | HWY_AVX3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
 #define HWY_TARGET_INCLUDE "predict/point_moving.cpp"
 #include "hwy/foreach_target.h"
 //
