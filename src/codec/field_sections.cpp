@@ -10,11 +10,12 @@
 namespace pointreel {
 namespace {
 
-PointLayout layout_of(const CodedGeometry& geometry) {
-  return PointLayout({geometry.rows, geometry.columns, geometry.cell_of_point, geometry.range_m});
+PointLayout layout_of(const PointCells& points) {
+  return PointLayout({points.rows, points.columns, points.cell_of_point, points.range_m});
 }
 
 FieldValues in_order(const FieldValues& values, std::span<const std::uint32_t> order) {
+  if (order.empty()) return values;
   return std::visit(
       [&](const auto& all) -> FieldValues {
         std::remove_cvref_t<decltype(all)> ordered;
@@ -35,7 +36,7 @@ const FieldStep* FieldSelection::find(std::string_view name) const {
 }
 
 void encode_fields(const FieldSelection& selection, const PointCloud& cloud,
-                   std::span<const std::uint32_t> output_order, const CodedGeometry& geometry, int threads,
+                   std::span<const std::uint32_t> output_order, const FindPointCells& find_cells, int threads,
                    ByteWriter& writer, FrameStatistics& statistics) {
   struct Chosen {
     const Field* field;
@@ -51,7 +52,7 @@ void encode_fields(const FieldSelection& selection, const PointCloud& cloud,
   }
   put_varint(writer, chosen.size());
   if (chosen.empty()) return;
-  const PointLayout layout = layout_of(geometry);
+  const PointLayout layout = layout_of(find_cells());
   parallel_for(chosen.size(), threads, [&](std::size_t i) {
     FieldMemory memory;
     chosen[i].bytes =
@@ -66,7 +67,7 @@ void encode_fields(const FieldSelection& selection, const PointCloud& cloud,
   }
 }
 
-Result<std::vector<Field>> decode_fields(const CodedGeometry& geometry, int threads, ByteReader& reader) {
+Result<std::vector<Field>> decode_fields(const FindPointCells& find_cells, int threads, ByteReader& reader) {
   const std::uint64_t count = get_varint(reader);
   if (!reader.ok() || count > kMostFields) return Error{ErrorCode::corrupt, "it ends before its fields"};
   struct Part {
@@ -85,7 +86,7 @@ Result<std::vector<Field>> decode_fields(const CodedGeometry& geometry, int thre
   }
   std::vector<Field> fields(parts.size());
   if (parts.empty()) return fields;
-  const PointLayout layout = layout_of(geometry);
+  const PointLayout layout = layout_of(find_cells());
   std::vector<Result<FieldValues>> values(parts.size(), FieldValues{});
   parallel_for(parts.size(), threads, [&](std::size_t i) {
     FieldMemory memory;

@@ -4,36 +4,37 @@
 
 namespace pointreel {
 
-CodedGeometry merged(const CodingGrid& coding, std::span<const std::uint32_t> cells,
-                     std::span<const float> range_of_cell_m, std::span<const std::uint32_t> strays,
-                     int threads) {
-  CodedGeometry geometry;
-  geometry.rows = static_cast<std::uint32_t>(coding.rows());
-  geometry.columns = static_cast<std::uint32_t>(coding.columns());
-  const std::size_t count = cells.size() + strays.size();
-  geometry.cell_of_point.resize(count);
-  geometry.range_m.resize(count);
-  for (const std::uint32_t stray : strays) {
-    geometry.cell_of_point[stray] = -1;
-    geometry.range_m[stray] = 0;
+PointCells cells_of_points(const CodingGrid& coding, const OrderedPoints& points,
+                           std::span<const float> range_of_cell_m, int threads) {
+  const std::size_t count = points.cells.size() + points.strays.size();
+  PointCells of;
+  of.rows = static_cast<std::uint32_t>(coding.rows());
+  of.columns = static_cast<std::uint32_t>(coding.columns());
+  of.cell_of_point.resize(count);
+  of.range_m.resize(count);
+  for (const std::uint32_t stray : points.strays) {
+    of.cell_of_point[stray] = -1;
+    of.range_m[stray] = 0;
   }
-  for_each_grid_point(count, strays, threads,
+  for_each_grid_point(count, points.strays, threads,
                       [&, image_index = CodingGrid::Finder(coding)](std::size_t i, std::size_t k) mutable {
-                        const std::size_t cell = cells[k];
-                        geometry.cell_of_point[i] = static_cast<std::int32_t>(image_index(cell));
-                        geometry.range_m[i] = range_of_cell_m[cell];
+                        const std::size_t cell = points.cells[k];
+                        of.cell_of_point[i] = static_cast<std::int32_t>(image_index(cell));
+                        of.range_m[i] = range_of_cell_m[cell];
                       });
-  return geometry;
+  return of;
 }
 
-FiringPlaces firing_places(const SensorModel& model, const SweepGrid& grid,
-                           std::span<const std::uint32_t> cells, const CodedGeometry& geometry) {
+PointCells points_without_cells(std::size_t count) {
+  return {0, 0, RawVector<std::int32_t>(count, -1), RawVector<float>(count, 0)};
+}
+
+FiringPlaces firing_places(const SensorModel& model, const SweepGrid& grid, const OrderedPoints& points) {
   FiringPlaces places{{}, std::max(1, static_cast<std::int32_t>(model.row_count()))};
-  const auto of_cells = firing_places_of(model, grid, cells);
-  places.of_point.reserve(geometry.cell_of_point.size());
-  std::size_t next_cell = 0;
-  for (const std::int32_t cell : geometry.cell_of_point)
-    places.of_point.push_back(cell < 0 ? -1 : of_cells[next_cell++]);
+  const auto of_cells = firing_places_of(model, grid, points.cells);
+  places.of_point.assign(points.cells.size() + points.strays.size(), -1);
+  for_each_grid_point(places.of_point.size(), points.strays, 1,
+                      [&](std::size_t i, std::size_t k) { places.of_point[i] = of_cells[k]; });
   return places;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/raw_vector.h"
 #include "codec/gridded_geometry.h"
 #include "predict/coding_grid.h"
 #include "sensor/burst_sort.h"
@@ -34,12 +35,17 @@ void for_each_grid_point(std::size_t points, std::span<const std::uint32_t> stra
   });
 }
 
-// `cells`: of the sensor grid, in output order; strays stand between them.
-CodedGeometry merged(const CodingGrid& coding, std::span<const std::uint32_t> cells,
-                     std::span<const float> range_of_cell_m, std::span<const std::uint32_t> strays,
-                     int threads);
+// What fields are coded by, once the geometry is: one entry a point, in output order.
+struct PointCells {
+  std::uint32_t rows = 0, columns = 0;    // of the coding image; 0 when there is none
+  RawVector<std::int32_t> cell_of_point;  // in the image; -1: off the grid
+  RawVector<float> range_m;               // decoded, along the ray; 0 off the grid
+};
 
-FiringPlaces firing_places(const SensorModel& model, const SweepGrid& grid,
-                           std::span<const std::uint32_t> cells, const CodedGeometry& geometry);
+PointCells cells_of_points(const CodingGrid& coding, const OrderedPoints& points,
+                           std::span<const float> range_of_cell_m, int threads);
+PointCells points_without_cells(std::size_t count);
+
+FiringPlaces firing_places(const SensorModel& model, const SweepGrid& grid, const OrderedPoints& points);
 
 }  // namespace pointreel

@@ -147,19 +147,19 @@ Result<DecodedGeometry> decode_points(const PointsSetting& setting, std::size_t 
   }
 
   DecodedGeometry result;
-  std::vector<std::uint32_t> stray_indices;
-  stray_indices.reserve(strays.size());
-  for (const Stray& stray : strays) stray_indices.push_back(stray.index);
-  result.geometry = merged(coding, cells, range_of_cell_m, stray_indices, threads);
-  result.geometry.order_kept = grid.order.kind != OrderKind::none;
+  result.points.cells = std::move(cells);
+  result.points.strays.reserve(strays.size());
+  for (const Stray& stray : strays) result.points.strays.push_back(stray.index);
+  result.order_kept = grid.order.kind != OrderKind::none;
   if (grid.order.in_bursts) {
-    auto bursts = decode_bursts(firing_places(model, grid, cells, result.geometry), get_section(reader));
+    auto bursts = decode_bursts(firing_places(model, grid, result.points), get_section(reader));
     if (!bursts) return bursts.error();
-    result.geometry.bursts = *std::move(bursts);
+    result.bursts = *std::move(bursts);
   }
   result.positions.resize(points_out);
-  for_each_grid_point(points_out, stray_indices, threads,
-                      [&](std::size_t i, std::size_t k) { result.positions[i] = positions[cells[k]]; });
+  for_each_grid_point(points_out, result.points.strays, threads, [&](std::size_t i, std::size_t k) {
+    result.positions[i] = positions[result.points.cells[k]];
+  });
   for (const Stray& stray : strays) result.positions[stray.index] = stray.position;
   return result;
 }

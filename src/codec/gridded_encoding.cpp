@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <utility>
 
+#include "base/first_where.h"
 #include "base/raw_vector.h"
 #include "base/simd_loops.h"
 #include "codec/corrections.h"
@@ -99,20 +99,18 @@ EncodedPoints encode_points(const PointsSetting& setting, const PointCloud& clou
 
   EncodedPoints encoded;
   std::vector<Stray> strays;
-  std::vector<std::uint32_t> stray_indices;
-  if (order_kept) {
-    encoded.output_order.resize(cloud.size());
-    std::iota(encoded.output_order.begin(), encoded.output_order.end(), 0u);
-  } else {
+  if (!order_kept) {
     for (const std::uint32_t cell : cells) encoded.output_order.push_back(sweep.point_of_cell[cell]);
   }
-  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
-    if (sweep.cell_of_point[i] >= 0) continue;
-    const auto index = order_kept ? i : static_cast<std::uint32_t>(encoded.output_order.size());
-    if (!order_kept) encoded.output_order.push_back(i);
-    strays.push_back({index, cloud.positions[i]});
-    stray_indices.push_back(index);
-  }
+  const std::int32_t* cell_of_point = sweep.cell_of_point.data();
+  for_each_where(
+      cloud.size(), [=](std::size_t i) { return static_cast<int>(cell_of_point[i] < 0); },
+      [&](std::size_t i) {
+        const auto index = static_cast<std::uint32_t>(order_kept ? i : encoded.output_order.size());
+        if (!order_kept) encoded.output_order.push_back(static_cast<std::uint32_t>(i));
+        strays.push_back({index, cloud.positions[i]});
+        encoded.points.strays.push_back(index);
+      });
   const auto correction_bytes = encode_corrections(corrections);
   const auto stray_bytes = strays.empty() ? std::vector<std::uint8_t>{} : encode_strays(strays, max_error_m);
   put_section(writer, moves);
@@ -125,13 +123,11 @@ EncodedPoints encode_points(const PointsSetting& setting, const PointCloud& clou
   statistics.stray_bits += bits_of(stray_bytes.size());
   statistics.corrected_points += static_cast<std::uint32_t>(corrections.size());
   statistics.stray_points += static_cast<std::uint32_t>(strays.size());
-  encoded.geometry = merged(sweep_cells.coding, cells, range_of_cell_m, stray_indices, threads);
-  encoded.geometry.order_kept = order_kept;
+  encoded.points.cells = std::move(cells);
   if (sweep.grid.order.in_bursts) {
-    const auto burst_bytes = encode_bursts(bursts, firing_places(model, sweep.grid, cells, encoded.geometry));
+    const auto burst_bytes = encode_bursts(bursts, firing_places(model, sweep.grid, encoded.points));
     put_section(writer, burst_bytes);
     statistics.order_bits += bits_of(burst_bytes.size());
-    encoded.geometry.bursts.assign(bursts.begin(), bursts.end());
   }
   return encoded;
 }

@@ -23,13 +23,10 @@
 
 namespace pointreel {
 
-// What both sides know of a sweep's points once its geometry is coded; one entry a point, in output order.
-struct CodedGeometry {
-  std::uint32_t rows = 0, columns = 0;    // of the coding image; 0 when there is none
-  RawVector<std::int32_t> cell_of_point;  // in the image; -1: off the grid
-  RawVector<float> range_m;               // decoded, along the ray; 0 off the grid
-  bool order_kept = true;
-  std::vector<std::uint32_t> bursts;  // sizes, where the output order has yet to be sorted by them
+// The points of a sweep in output order: those on its grid, between which strays stand.
+struct OrderedPoints {
+  std::vector<std::uint32_t> cells;   // of the sensor grid, of each point on it
+  std::vector<std::uint32_t> strays;  // places in the output, ascending
 };
 
 // What the next sweep can be predicted from.
@@ -73,8 +70,8 @@ EncodedCells encode_cells(const GeometrySetting& setting, const GriddedSweep& sw
                           const Prediction* prediction, FrameStatistics& statistics);
 
 struct EncodedPoints {
-  CodedGeometry geometry;
-  std::vector<std::uint32_t> output_order;  // index in the input of each output point
+  OrderedPoints points;
+  std::vector<std::uint32_t> output_order;  // index in the input of each output point; empty: the same
 };
 
 // All points of `cloud` must be finite. `bursts`: those of the sort that was undone, if one was
@@ -92,8 +89,10 @@ struct DecodedCells {
 
 // The points of decoded cells.
 struct DecodedGeometry {
-  CodedGeometry geometry;
+  OrderedPoints points;
   std::vector<Point3f> positions;
+  bool order_kept = true;
+  std::vector<std::uint32_t> bursts;  // sizes, where the output order has yet to be sorted by them
 };
 
 // `reference`: nullptr for a frame by itself. `image`: what the next sweep can be predicted from, on success;

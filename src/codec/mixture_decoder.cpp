@@ -10,6 +10,7 @@
 
 #include "base/parallel.h"
 #include "codec/field_sections.h"
+#include "codec/grid_points.h"
 #include "codec/gridded_geometry.h"
 #include "codec/method.h"
 #include "codec/mixture_payload.h"
@@ -112,12 +113,17 @@ class GroupDecoder {
     sweep.cloud.positions = std::move(geometry->positions);
     if (sweep.cloud.count_non_finite() > 0)
       return Error{ErrorCode::corrupt, "it holds a position that is not finite"};
-    auto fields = decode_fields(geometry->geometry, threads, reader);
+    const auto find_cells = [&] {
+      return begun.cells ? cells_of_points(begun.cells->coding, geometry->points,
+                                           begun.cells->range_of_cell_m, threads)
+                         : points_without_cells(sweep.cloud.size());
+    };
+    auto fields = decode_fields(find_cells, threads, reader);
     if (!fields) return fields.error();
     if (!reader.rest().empty()) return Error{ErrorCode::corrupt, "bytes follow its fields"};
     sweep.cloud.fields = *std::move(fields);
-    if (!geometry->geometry.bursts.empty()) redo_sort(geometry->geometry.bursts, sweep.cloud);
-    sweep.order_kept = geometry->geometry.order_kept;
+    if (!geometry->bursts.empty()) redo_sort(geometry->bursts, sweep.cloud);
+    sweep.order_kept = geometry->order_kept;
     sweep.temporal = begun.coding == SweepCoding::predicted;
     sweep.field_bytes = field_bytes;
     return sweep;
@@ -172,9 +178,7 @@ class GroupDecoder {
                                            " points instead of " + std::to_string(packet.points_out)};
     }
     DecodedGeometry geometry;
-    geometry.geometry.cell_of_point.assign(points->size(), -1);
-    geometry.geometry.range_m.assign(points->size(), 0);
-    geometry.geometry.order_kept = points->empty();
+    geometry.order_kept = points->empty();
     geometry.positions = *std::move(points);
     return geometry;
   }

@@ -10,6 +10,7 @@
 
 #include "base/parallel.h"
 #include "codec/field_sections.h"
+#include "codec/grid_points.h"
 #include "codec/gridded_geometry.h"
 #include "codec/method.h"
 #include "codec/mixture_payload.h"
@@ -110,7 +111,12 @@ class MixtureEncoder final : public Encoder::Implementation {
     } else {
       encoded = encode_scattered_sweep(sweep.cloud, writer, packet.statistics);
     }
-    encode_fields(fields_, sweep.cloud, encoded.output_order, encoded.geometry, threads_, writer,
+    const auto find_cells = [&] {
+      return sweep.model
+                 ? cells_of_points(sweep.cells->coding, encoded.points, cells.range_of_cell_m, threads_)
+                 : points_without_cells(sweep.cloud.size());
+    };
+    encode_fields(fields_, sweep.cloud, encoded.output_order, find_cells, threads_, writer,
                   packet.statistics);
     packet.payload = writer.take();
     std::vector<Packet> packets;
@@ -133,9 +139,6 @@ class MixtureEncoder final : public Encoder::Implementation {
     statistics.scattered_bits += bits_of(points.bytes.size());
     EncodedPoints encoded;
     encoded.output_order = std::move(points.order);
-    encoded.geometry.cell_of_point.assign(cloud.size(), -1);
-    encoded.geometry.range_m.assign(cloud.size(), 0);
-    encoded.geometry.order_kept = false;
     return encoded;
   }
 

@@ -13,13 +13,15 @@ SensorRays::SensorRays(const SensorModel& model, const SweepGrid& grid,
       ticks_per_turn_(grid.ticks_per_turn),
       column_tick_(grid.column_tick) {
   const std::size_t columns = grid.column_count();
-  cos_.resize(2 * columns);
-  sin_.resize(2 * columns);
+  cos_.resize(2 * columns + kColumnsMore);
+  sin_.resize(2 * columns + kColumnsMore);
   for (std::size_t c = 0; c < columns; ++c) {
     const std::uint32_t tick = grid.column_tick[c] % grid.ticks_per_turn;
     const SinCos azimuth = sin_cos(static_cast<double>(tick) / grid.ticks_per_turn * (2 * kPi));
-    cos_[c] = cos_[c + columns] = static_cast<float>(azimuth.cos);
-    sin_[c] = sin_[c + columns] = static_cast<float>(azimuth.sin);
+    for (std::size_t again = c; again < cos_.size(); again += columns) {
+      cos_[again] = static_cast<float>(azimuth.cos);
+      sin_[again] = static_cast<float>(azimuth.sin);
+    }
   }
   rows_.reserve(model.row_count());
   for (std::size_t r = 0; r < model.row_count(); ++r) {

@@ -35,7 +35,8 @@ class SensorRays {
     double azimuth_turns;
   };
   const Row& row(int row) const { return rows_[static_cast<std::size_t>(row)]; }
-  // Of the column azimuths, by image column; those of a whole row lie side by side.
+  // Of the column azimuths, by image column; those of a whole row, and of kColumnsMore, lie side by side.
+  static constexpr std::size_t kColumnsMore = 8;
   const float* cos_of_row(int row) const { return &cos_[this->row(row).first]; }
   const float* sin_of_row(int row) const { return &sin_[this->row(row).first]; }
 
@@ -81,7 +82,7 @@ class SensorRays {
   std::uint32_t ticks_per_turn_;
   std::vector<std::uint32_t> column_tick_;
   std::vector<Row> rows_;
-  std::vector<float> cos_, sin_;  // of the column azimuths, twice around
+  std::vector<float> cos_, sin_;  // of the column azimuths, twice around and kColumnsMore on
 };
 
 }  // namespace pointreel

@@ -16,16 +16,12 @@ TileSamples::TileSamples(const PlaneTask& task)
   const std::size_t padded = first_cell(tiles_.rows);
   rho_m_.resize(padded);
   tolerance_m_.resize(padded);
-  cos_.resize(padded);
-  sin_.resize(padded);
   has_moments_.resize(tiles_.count());
   moments_.resize(tiles_.count());
   const auto columns = static_cast<std::size_t>(tiles_.columns);
   for (int row = 0; row < tiles_.rows; ++row) {
     const std::size_t from = static_cast<std::size_t>(row) * columns, to = first_cell(row);
     const auto rho_per_range = static_cast<float>(1 / rays_.row(row).range_per_rho);
-    std::copy_n(rays_.cos_of_row(row), columns, &cos_[to]);
-    std::copy_n(rays_.sin_of_row(row), columns, &sin_[to]);
     for (std::size_t c = 0; c < columns; ++c) {
       const float range_m = task.range_m[from + c];
       const float left_m = task.tolerance_m[from + c] - range_m * kRounding;
@@ -35,7 +31,6 @@ TileSamples::TileSamples(const PlaneTask& task)
     for (std::size_t c = to + columns; c < first_cell(row + 1); ++c) {
       rho_m_[c] = 0;
       tolerance_m_[c] = kAnyM;
-      cos_[c] = sin_[c] = 0;
     }
   }
 }
@@ -48,15 +43,18 @@ bool TileSamples::has_returns(int tile_row, int tile) const {
   return false;
 }
 
+static_assert(SensorRays::kColumnsMore >= kTileColumns, "the last tile may reach beyond the last column");
+
 struct TileSamples::Loops {
   POINTREEL_SIMD_LOOPS static bool holds(const PlaneTest& test, int tile) {
     // Without a branch for single rows: column by column, whether any return lies outside.
     std::array<std::int32_t, kTileColumns> outside{};
     for (std::size_t r = 0; r < test.count_; ++r) {
       const SensorRays::RowPlane at = test.rows_[r].plane;
-      const std::size_t first = test.rows_[r].first_cell + static_cast<std::size_t>(tile * kTileColumns);
-      const float* cosine = &test.samples_->cos_[first];
-      const float* sine = &test.samples_->sin_[first];
+      const std::size_t column = static_cast<std::size_t>(tile) * kTileColumns;
+      const std::size_t first = test.rows_[r].first_cell + column;
+      const float* cosine = test.rows_[r].cosine + column;
+      const float* sine = test.rows_[r].sine + column;
       const float* rho_m = &test.samples_->rho_m_[first];
       const float* tolerance_m = &test.samples_->tolerance_m_[first];
       for (std::size_t c = 0; c < kTileColumns; ++c) {
@@ -74,10 +72,11 @@ struct TileSamples::Loops {
     PlaneMomentLanes<kTileColumns> sums;
     for (int row = TileGrid::first_row(tile_row); row < samples.tiles_.end_row(tile_row); ++row) {
       const SensorRays::Row r = samples.rays_.row(row);
-      const std::size_t first = samples.first_cell(row, tile);
+      const float* rhos_m = &samples.rho_m_[samples.first_cell(row, tile)];
+      const float* column_cosine = samples.rays_.cos_of_row(row) + tile * kTileColumns;
+      const float* column_sine = samples.rays_.sin_of_row(row) + tile * kTileColumns;
       for (std::size_t c = 0; c < kTileColumns; ++c) {
-        const double rho_m = samples.rho_m_[first + c];
-        const double column_cos = samples.cos_[first + c], column_sin = samples.sin_[first + c];
+        const double rho_m = rhos_m[c], column_cos = column_cosine[c], column_sin = column_sine[c];
         const double cosine = column_cos * r.cos_alpha - column_sin * r.sin_alpha;
         const double sine = column_sin * r.cos_alpha + column_cos * r.sin_alpha;
         sums.add(c, rho_m * cosine - r.side_offset_m * sine, rho_m * sine + r.side_offset_m * cosine,

@@ -26,7 +26,8 @@ class TileSamples {
     PlaneTest(const TileSamples& samples, const Plane& plane, int tile_row) : samples_(&samples) {
       const int end = samples.tiles_.end_row(tile_row);
       for (int row = TileGrid::first_row(tile_row); row < end; ++row)
-        rows_[count_++] = {samples.rays_.row_plane(plane, row), samples.first_cell(row)};
+        rows_[count_++] = {samples.rays_.row_plane(plane, row), samples.first_cell(row),
+                           samples.rays_.cos_of_row(row), samples.rays_.sin_of_row(row)};
     }
     // All returns of the tile are within their tolerances.
     bool holds(int tile) const;
@@ -37,6 +38,7 @@ class TileSamples {
     struct InRow {
       SensorRays::RowPlane plane;
       std::size_t first_cell;
+      const float *cosine, *sine;  // by column
     };
     const TileSamples* samples_;
     std::array<InRow, kTileRows> rows_{};
@@ -55,7 +57,6 @@ class TileSamples {
   const SensorRays& rays_;
   TileGrid tiles_;
   RawVector<float> rho_m_, tolerance_m_;  // horizontal; tolerance without a return: any
-  RawVector<float> cos_, sin_;            // of the column azimuths
   std::vector<std::uint8_t> has_moments_;
   RawVector<PlaneMoments> moments_;
 };

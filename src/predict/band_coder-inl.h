@@ -84,16 +84,15 @@ bool code_band(Coder& mask_coder, Coder& range_coder, const BandSetting& setting
             take_hit(row);
         }
       }
-      const auto for_each_hit = [&](const auto& act) HWY_ATTR {
-        for (std::size_t i = 0; i < hits; ++i) act(hit_rows[i], static_cast<std::size_t>(hit_rows[i]));
-      };
       if (hits > 0) ranges.predict(step, &reference);
-      for_each_hit([&](int row, std::size_t cell) HWY_ATTR { ranges.start(cell, first + row); });
-      for_each_hit([&](int row, std::size_t cell) HWY_ATTR {
+      for (std::size_t i = 0; i < hits; ++i)
+        ranges.start(static_cast<std::size_t>(hit_rows[i]), first + hit_rows[i]);
+      for (std::size_t i = 0; i < hits; ++i) {
+        const int row = hit_rows[i];
         float& range_m = range_of(row);
-        range_m = ranges.code(range_coder, cell, first + row, range_m);
-      });
-      for_each_hit([&](int, std::size_t cell) HWY_ATTR { ranges.learn(cell); });
+        range_m = ranges.code(range_coder, static_cast<std::size_t>(row), first + row, range_m);
+      }
+      for (std::size_t i = 0; i < hits; ++i) ranges.learn(static_cast<std::size_t>(hit_rows[i]));
       ranges.remember(step);
       mask.remember(step, ranges.decoded_m());
       if constexpr (Coder::kDecodes) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/first_where.h"
 #include "base/parallel.h"
 #include "base/simd_loops.h"
 #include "sensor/side_turn.h"
@@ -30,8 +31,12 @@ void take_in_neighbours(const PolarPoints& polar, const std::vector<std::int16_t
                         std::span<const float> azimuth_rad, double near_m, SweepColumns& columns) {
   if (columns.tick.empty()) return;
   const double ticks_per_rad = columns.ticks_per_turn / kTurn;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i] < 0 || columns.column_of_point[i] >= 0) continue;
+  const std::int16_t* row = rows.data();
+  std::int32_t* column_of_point = columns.column_of_point.data();
+  const auto is_between = [=](std::size_t i) {
+    return static_cast<int>(row[i] >= 0) & static_cast<int>(column_of_point[i] < 0);
+  };
+  for_each_where(rows.size(), is_between, [&](std::size_t i) {
     const double tick = static_cast<double>(azimuth_rad[i]) * ticks_per_rad;
     const auto above = std::lower_bound(columns.tick.begin(), columns.tick.end(), tick,
                                         [](std::uint32_t a, double b) { return a < b; });
@@ -43,32 +48,31 @@ void take_in_neighbours(const PolarPoints& polar, const std::vector<std::int16_t
                             static_cast<double>(polar.rho_m[i]);
       if (away_m >= nearest_m) continue;
       nearest_m = away_m;
-      columns.column_of_point[i] = static_cast<std::int32_t>(c);
+      column_of_point[i] = static_cast<std::int32_t>(c);
     }
-  }
+  });
 }
 
 POINTREEL_SIMD_LOOPS SweepColumns columns_on_lattice(const SensorModel& model,
                                                      const std::vector<std::int16_t>& rows,
                                                      std::span<const float> azimuth_rad, bool unwrapped) {
   const std::uint32_t turn = model.ticks_per_turn;
+  const auto turn_ticks = static_cast<std::int32_t>(turn);
   const std::uint32_t end = unwrapped ? 2 * turn : turn;
   const auto ticks_per_rad = static_cast<float>(turn / kTurn);
   SweepColumns columns{turn, {}, RawVector<std::int32_t>(rows.size())};
-  for (std::size_t i = 0; i < rows.size(); ++i) {
+  const std::int16_t* row = rows.data();
+  std::int32_t* tick_of_point = columns.column_of_point.data();
+  for (std::size_t i = 0; i < rows.size(); ++i) {  // becomes SIMD code
     const float azimuth = azimuth_rad[i] > 0 ? azimuth_rad[i] : 0.0F;
-    columns.column_of_point[i] = static_cast<std::int32_t>(azimuth * ticks_per_rad + 0.5F);
+    const auto tick = static_cast<std::int32_t>(azimuth * ticks_per_rad + 0.5F);
+    const std::int32_t within = tick - (tick >= static_cast<std::int32_t>(end) ? turn_ticks : 0);
+    tick_of_point[i] = row[i] < 0 ? -1 : within;
   }
-  std::vector<std::uint32_t> support(end, 0);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    std::int32_t& tick = columns.column_of_point[i];
-    if (rows[i] < 0) {
-      tick = -1;
-      continue;
-    }
-    if (tick >= static_cast<std::int32_t>(end)) tick -= static_cast<std::int32_t>(turn);
-    ++support[static_cast<std::size_t>(tick)];
-  }
+  std::vector<std::uint32_t> support_from_none(end + 1, 0);  // the first counts points without a row
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    ++support_from_none[static_cast<std::size_t>(tick_of_point[i] + 1)];
+  const std::span<const std::uint32_t> support = std::span(support_from_none).subspan(1);
   std::size_t points = 0;
   std::size_t used = 0;
   for (const std::uint32_t count : support) {
@@ -76,16 +80,15 @@ POINTREEL_SIMD_LOOPS SweepColumns columns_on_lattice(const SensorModel& model,
     used += count > 0 ? 1 : 0;
   }
   const std::uint32_t least = least_support(points, used);
-  std::vector<std::int32_t> column_of_tick(end, -1);
+  std::vector<std::int32_t> column_from_none(end + 1, -1);
   for (std::uint32_t tick = 0; tick < end; ++tick) {
     if (support[tick] < least || columns.tick.size() >= most_columns(model.rows.size())) continue;
     if (columns.tick.empty() && tick >= turn) continue;
-    column_of_tick[tick] = static_cast<std::int32_t>(columns.tick.size());
+    column_from_none[tick + 1] = static_cast<std::int32_t>(columns.tick.size());
     columns.tick.push_back(tick);
   }
-  for (std::int32_t& column : columns.column_of_point) {
-    if (column >= 0) column = column_of_tick[static_cast<std::size_t>(column)];
-  }
+  const std::int32_t* column_of_tick = column_from_none.data() + 1;
+  for (std::size_t i = 0; i < rows.size(); ++i) tick_of_point[i] = column_of_tick[tick_of_point[i]];
   return columns;
 }
 

@@ -38,6 +38,7 @@ class Measurement {
     const double rad_per_tick = kTurn / columns.ticks_per_turn;
     for (const std::uint32_t tick : columns.tick)
       column_rad_.push_back(tick % columns.ticks_per_turn * rad_per_tick);
+    if (column_rad_.empty()) column_rad_.push_back(0);  // looked at for strays
     for (const RowModel& row : model.rows)
       rows_.push_back({row.slope, row.offset_m, 1 / std::sqrt(1 + row.slope * row.slope), row.azimuth_rad,
                        static_cast<float>(row.side_offset_m)});
@@ -51,17 +52,34 @@ class Measurement {
     std::array<float, kBlock> side_m, side_rad;
     std::array<std::int32_t, kBlock> cell;
     const auto column_count = static_cast<std::int32_t>(columns_.tick.size());
+    const std::int16_t* row = &rows[first];
+    const std::int32_t* column = &columns_.column_of_point[first];
+    const auto row_of = [&](std::int16_t r) -> const Row& {
+      return rows_.empty() ? kNoLaser : rows_[static_cast<std::size_t>(r < 0 ? 0 : r)];
+    };
+    int other_rows = 0;
+    for (std::size_t k = 0; k < count; ++k) other_rows |= row[k] != row[0] ? 1 : 0;
+    if (other_rows == 0) {  // as a rule, where row follows row
+      const Row& r = row_of(row[0]);
+      std::fill_n(slope.begin(), count, r.slope);
+      std::fill_n(offset_m.begin(), count, r.offset_m);
+      std::fill_n(side_m.begin(), count, r.side_m);
+      std::fill_n(cosine.begin(), count, r.cosine);
+      std::fill_n(ray_rad.begin(), count, r.azimuth_rad);
+    } else {
+      for (std::size_t k = 0; k < count; ++k) {
+        const Row& r = row_of(row[k]);
+        slope[k] = r.slope;
+        offset_m[k] = r.offset_m;
+        side_m[k] = r.side_m;
+        cosine[k] = r.cosine;
+        ray_rad[k] = r.azimuth_rad;
+      }
+    }
+    const double* column_rad = column_rad_.data();
     for (std::size_t k = 0; k < count; ++k) {
-      const std::int16_t r = rows[first + k];
-      const std::int32_t c = columns_.column_of_point[first + k];
-      const bool any = (r >= 0) & (c >= 0);
-      const Row& row = rows_.empty() ? kNoLaser : rows_[static_cast<std::size_t>(r < 0 ? 0 : r)];
-      slope[k] = row.slope;
-      offset_m[k] = row.offset_m;
-      side_m[k] = row.side_m;
-      cosine[k] = row.cosine;
-      ray_rad[k] = any ? column_rad_[static_cast<std::size_t>(c)] + row.azimuth_rad : 0.0;
-      cell[k] = any ? r * column_count + c : -1;
+      ray_rad[k] += column_rad[std::max(column[k], 0)];
+      cell[k] = (row[k] | column[k]) < 0 ? -1 : row[k] * column_count + column[k];
     }
     const float* rho_m = &polar.rho_m[first];
     const float* z_m = &polar.z_m[first];

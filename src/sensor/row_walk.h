@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "base/first_where.h"
 #include "base/simd_loops.h"
 #include "base/trigonometry.h"
 #include "sensor/sensor_model.h"
@@ -157,21 +158,6 @@ class RowWalk {
     for (std::size_t k = 0; k < count; ++k) column_[k] = static_cast<std::uint32_t>(keys[k]);
   }
   std::uint64_t key(std::size_t k) const { return (std::uint64_t{place_[k]} << 32) | column_[k]; }
-
-  // The first of [from, end) for which `holds` is 1; `end` if there is none. Blocks are looked at as a whole,
-  // which becomes SIMD code.
-  template <class Holds>
-  static std::size_t first_where(std::size_t from, std::size_t end, const Holds& holds) {
-    constexpr std::size_t kBlock = 64;
-    std::size_t k = from;
-    for (; k + kBlock <= end; k += kBlock) {
-      int any = 0;
-      for (std::size_t i = k; i < k + kBlock; ++i) any |= holds(i);
-      if (any != 0) break;
-    }
-    while (k < end && holds(k) == 0) ++k;
-    return std::min(k, end);
-  }
 
   std::span<const std::uint8_t> occupied_;
   std::span<const float> range_m_;
