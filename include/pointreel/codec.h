@@ -193,9 +193,10 @@ class Encoder {
   // is not that of the points; the encoder then goes on without the sweep.
   Packets encode(PointCloud sweep, const std::optional<Pose>& T_world_sensor = {});
   // The same for sweeps that are there already, as in files: takes them from next() until it has none, and
-  // hands each one's packets to take(), in order, until that returns false, which ends the stream. With two
-  // threads and more, three sweeps are worked on at once, which takes less time for all and changes no byte;
-  // next() and take() then run on any thread and side by side, each once at a time.
+  // hands each one's packets to take(), in order. finish() is still to be called. On the sensor's grid, with
+  // two threads and more, three sweeps are worked on at once, which takes less time for all and changes no
+  // byte; next() and take() then run on any thread and side by side, each once at a time. They must not
+  // throw. When take() returns false, sweeps that next() has given are lost, and the encoder is done with.
   using NextSweep = std::function<std::optional<PosedSweep>()>;
   using TakePackets = std::function<bool(Packets)>;
   void encode_all(const NextSweep& next, const TakePackets& take);

@@ -49,6 +49,9 @@ void parallel_for(std::size_t count, int threads, BesideTasks beside, const Task
       beside[i - count]();
   });
 }
+inline void run_all(int threads, BesideTasks tasks) {
+  parallel_for(tasks.size(), threads, [&](std::size_t i) { tasks[i](); });
+}
 
 // Calls look_at(piece, first, last) for pieces of `points` points, on all threads.
 inline constexpr std::size_t kPiecePoints = 8192;

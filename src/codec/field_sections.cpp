@@ -15,7 +15,6 @@ PointLayout layout_of(const PointCells& points) {
 }
 
 FieldValues in_order(const FieldValues& values, std::span<const std::uint32_t> order) {
-  if (order.empty()) return values;
   return std::visit(
       [&](const auto& all) -> FieldValues {
         std::remove_cvref_t<decltype(all)> ordered;
@@ -55,8 +54,10 @@ void encode_fields(const FieldSelection& selection, const PointCloud& cloud,
   const PointLayout layout = layout_of(find_cells());
   parallel_for(chosen.size(), threads, [&](std::size_t i) {
     FieldMemory memory;
-    chosen[i].bytes =
-        encode_field(in_order(chosen[i].field->values, output_order), chosen[i].step, layout, memory);
+    const FieldValues& values = chosen[i].field->values;
+    chosen[i].bytes = output_order.empty()
+                          ? encode_field(values, chosen[i].step, layout, memory)
+                          : encode_field(in_order(values, output_order), chosen[i].step, layout, memory);
   });
   for (const Chosen& part : chosen) {
     const std::string& name = part.field->name;

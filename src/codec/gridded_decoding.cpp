@@ -82,7 +82,7 @@ Result<GriddedPlanes> decode_gridded_planes(const GeometrySetting& setting, cons
 }
 
 Result<DecodedCells> decode_cells(const GeometrySetting& setting, const CodedImage* reference,
-                                  ByteReader& reader, CodedImage& decoded_image) {
+                                  ByteReader& reader, CodedImage& image) {
   const auto& [model, max_error_m, effort, threads, plane_stage, warp_memory, beside] = setting;
   auto head = decode_head(model, reference != nullptr, reader);
   if (!head) return head.error();
@@ -101,14 +101,14 @@ Result<DecodedCells> decode_cells(const GeometrySetting& setting, const CodedIma
     planes.tiles = *std::move(tiles);
     planes.range_m = ranges_on_planes_m(rays, planes.tiles, threads);
   }
-  GridImage image = coding.empty_image();
+  GridImage ranges = coding.empty_image();
   auto states =
       decode_image({model, grid, head->quantiser, effort, threads, warp_memory, planes.range_m, beside},
-                   prediction ? &*prediction : nullptr, reader, image);
+                   prediction ? &*prediction : nullptr, reader, ranges);
   if (!states) return states.error();
-  auto range_of_cell_m = coding.ranges_of_cells(image, threads);
-  if (reference != nullptr) draw_together(warp_memory.image, head->quantiser.step_m, image);
-  decoded_image = {{grid, std::move(image), *std::move(states)}, std::move(planes.tiles)};
+  auto range_of_cell_m = coding.ranges_of_cells(ranges, threads);
+  if (reference != nullptr) draw_together(warp_memory.image, head->quantiser.step_m, ranges);
+  image = {{grid, std::move(ranges), *std::move(states)}, std::move(planes.tiles)};
   return DecodedCells{std::move(head->grid), std::move(coding), std::move(range_of_cell_m)};
 }
 

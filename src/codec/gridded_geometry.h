@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "base/bytes.h"
-#include "base/raw_vector.h"
 #include "codec/image_sections.h"
 #include "codec/plane_section.h"
 #include "codec/sweep_cells.h"
@@ -31,11 +30,11 @@ struct OrderedPoints {
 
 // What the next sweep can be predicted from.
 struct CodedImage {
-  ReferenceSweep reference;  // empty for a sweep without a grid
-  PlaneTiles planes;         // of method `planes`
+  ReferenceSweep reference;
+  PlaneTiles planes;  // of method `planes`
 };
 
-// What both sides know of the sensor and the stream: all of it for the cells, and for the points.
+// What both sides know of the sensor and the stream; PointsSetting: what the points need of it.
 struct GeometrySetting {
   const SensorModel& model;
   double max_error_m;
@@ -43,7 +42,7 @@ struct GeometrySetting {
   int threads;
   PlaneStage planes;
   WarpMemory& warp_memory;  // of the stream
-  BesideTasks beside;       // there are few bands
+  BesideTasks beside;       // run where the bands leave threads free
 };
 struct PointsSetting {
   const SensorModel& model;

@@ -24,7 +24,7 @@ struct ImageSetting {
   int threads;
   WarpMemory& warp_memory;               // of the stream
   std::span<const float> known_range_m;  // BandSetting::known_range_m
-  BesideTasks beside;                    // there are few bands
+  BesideTasks beside;                    // run where the bands leave threads free
 };
 
 // The earlier sweep that a predicted frame starts from, and the motion since, as the stream has it.

@@ -42,11 +42,14 @@ class GroupDecoder {
           spoilt = !finish(packets[i - 1], *std::exchange(last, std::nullopt), threads, sweeps[i - 1]);
       };
       if (threads == 1) finish_last();
-      auto begun = begin(packets[i], threads, BesideTasks(&finish_last, 1));
+      ByteReader reader(packets[i].payload);
+      const auto coding = coding_of(packets[i], reference_frame_, reader);
+      auto begun = coding ? begin(packets[i], *coding, reader, threads, BesideTasks(&finish_last, 1))
+                          : Result<BegunSweep>(coding.error());
       finish_last();  // where there was no image to decode
-      if (spoilt && (!begun || begun->coding == SweepCoding::predicted)) {
+      if (spoilt && (!coding || *coding == SweepCoding::predicted)) {
         forget_reference();
-        if (begun) begun = reference_is_missing(packets[i]);
+        if (coding) begun = reference_is_missing(packets[i]);
       }
       last = std::move(begun);
     }
@@ -75,21 +78,18 @@ class GroupDecoder {
   };
 
   // `beside` are not called where there is no image to decode.
-  Result<BegunSweep> begin(const Packet& packet, int threads, BesideTasks beside) {
-    ByteReader reader(packet.payload);
-    const auto coding = coding_of(packet, reference_frame_, reader);
-    if (!coding) return coding.error();
-    if (*coding == SweepCoding::scattered) return BegunSweep{*coding, {}, reader};
-    auto cells =
-        decode_cells(geometry_setting(header_, model_, threads, warp_memory_, beside),
-                     *coding == SweepCoding::predicted ? &last_image_ : nullptr, reader, last_image_);
+  Result<BegunSweep> begin(const Packet& packet, SweepCoding coding, ByteReader reader, int threads,
+                           BesideTasks beside) {
+    if (coding == SweepCoding::scattered) return BegunSweep{coding, {}, reader};
+    auto cells = decode_cells(geometry_setting(header_, model_, threads, warp_memory_, beside),
+                              coding == SweepCoding::predicted ? &last_image_ : nullptr, reader, last_image_);
     if (!cells) return cells.error();
     reference_frame_ = packet.frame;
     if (header_.method == Method::planes) {
       last_planes_ = {last_image_.reference.grid, last_image_.planes};
       planes_frame_ = packet.frame;
     }
-    return BegunSweep{*coding, *std::move(cells), reader};
+    return BegunSweep{coding, *std::move(cells), reader};
   }
 
   // False when a sweep whose cells were decoded has damaged points: it is no reference then.
@@ -156,6 +156,8 @@ class GroupDecoder {
     if (needs_frame != (packet.kind == FrameKind::predicted)) {
       return Error{ErrorCode::corrupt, "its kind and its coding contradict each other"};
     }
+    if (coding == SweepCoding::predicted && header_.effort == Effort::fast)
+      return Error{ErrorCode::corrupt, "effort fast predicts no sweep from another"};
     if (coding == SweepCoding::gridded_model) {
       auto model = decode_sensor_model(get_section(reader));
       if (!model) return model.error();
@@ -165,8 +167,6 @@ class GroupDecoder {
                (coding == SweepCoding::gridded ? model_frame_ : reference_frame) != packet.reference_frame) {
       return reference_is_missing(packet);
     }
-    if (coding == SweepCoding::predicted && header_.effort == Effort::fast)
-      return Error{ErrorCode::corrupt, "effort fast predicts no sweep from another"};
     return coding;
   }
 

@@ -3,7 +3,6 @@
 #include <array>
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -61,7 +60,7 @@ class MixtureEncoder final : public Encoder::Implementation {
       if (to_code)
         coded = code_cells(*std::move(to_code), others);
       else
-        parallel_for(0, threads_, others, [](std::size_t) {});
+        run_all(threads_, others);
     }
   }
 
@@ -75,7 +74,7 @@ class MixtureEncoder final : public Encoder::Implementation {
 
   Result<CodedSweep> code_cells(Result<PreparedSweep> prepared, BesideTasks beside) {
     if (!prepared || !prepared->model) {
-      parallel_for(0, threads_, beside, [](std::size_t) {});
+      run_all(threads_, beside);
       if (!prepared) return prepared.error();
       return CodedSweep{*std::move(prepared), {}};
     }
@@ -95,7 +94,8 @@ class MixtureEncoder final : public Encoder::Implementation {
   // Points, fields and the packet.
   Packets finish_packet(Result<CodedSweep> coded) {
     if (!coded) return coded.error();
-    auto& [sweep, cells] = *coded;
+    PreparedSweep& sweep = coded->prepared;
+    const EncodedCells& cells = coded->cells;
     Packet& packet = sweep.packet;
     ByteWriter writer;
     EncodedPoints encoded;

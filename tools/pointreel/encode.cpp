@@ -79,7 +79,8 @@ std::optional<Error> encode_sweeps(Encoder& encoder, ReelWriter& writer,
   Progress progress("encoding", inputs.size());
   std::optional<Error> fault;
   std::optional<Stopwatch> since_packets(std::in_place);
-  double reading_ms = 0;  // since then, if nothing else was done meanwhile
+  double reading_ms = 0;  // since then, where nothing else is done meanwhile
+  const bool reads_beside = threads > 1 && encoder.header().on_sensor_grid();
   const auto write = [&](const Encoder::Packets& packets) {
     if (!packets) fault = packets.error();
     if (fault || packets->empty()) return !fault;
@@ -101,7 +102,7 @@ std::optional<Error> encode_sweeps(Encoder& encoder, ReelWriter& writer,
   const auto next = [&] {
     const Stopwatch start;
     auto sweep = files.next();
-    if (threads == 1) reading_ms += start.elapsed_ms();
+    if (!reads_beside) reading_ms += start.elapsed_ms();
     if (sweep && std::exchange(first, false)) {
       for (const Field& field : sweep->cloud.fields) totals.fields.push_back(field.name);
     }
