@@ -7,12 +7,14 @@
 // know of them.
 #pragma once
 
-#if defined(__has_feature)
-#if __has_feature(thread_sanitizer)
-#define POINTREEL_SIMD_LOOPS  // that has not started when the processor decides
-#endif
-#elif defined(__SANITIZE_THREAD__)
+// None under the thread sanitizer, which has not started when the processor decides. (Eigen defines
+// __has_feature for gcc, too.)
+#if defined(__SANITIZE_THREAD__)
 #define POINTREEL_SIMD_LOOPS
+#elif defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define POINTREEL_SIMD_LOOPS
+#endif
 #endif
 
 #ifndef POINTREEL_SIMD_LOOPS

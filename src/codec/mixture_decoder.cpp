@@ -95,10 +95,11 @@ class GroupDecoder {
   // False when a sweep whose cells were decoded has damaged points: it is no reference then.
   bool finish(const Packet& packet, Result<BegunSweep> begun, int threads,
               Result<DecodedSweep>& sweep) const {
-    sweep = begun ? finished(packet, *std::move(begun), threads) : begun.error();
+    const bool has_cells = static_cast<bool>(begun);
+    sweep = has_cells ? finished(packet, *std::move(begun), threads) : begun.error();
     if (sweep) return true;
     sweep = in_frame(packet, sweep.error());
-    return !begun;
+    return !has_cells;
   }
 
   Result<DecodedSweep> finished(const Packet& packet, BegunSweep begun, int threads) const {

@@ -28,7 +28,7 @@ class RowCheck {
     rays_.positions_of_row(row, ranges_m, positions_);
     // Float tells for nearly all; branches on single cells would be mispredicted.
     constexpr std::size_t kBlock = 64;
-    std::array<std::uint8_t, kBlock> unsure;
+    std::uint8_t unsure[kBlock];
     for (std::size_t first = 0; first < columns; first += kBlock) {
       const std::size_t count = std::min(columns - first, kBlock);
       const std::uint32_t* points = &point_of_cell_[row * columns + first];

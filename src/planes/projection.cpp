@@ -20,7 +20,7 @@ struct RigidMotion {
     }
   }
   std::array<double, 3> apply(double x, double y, double z) const {
-    std::array<double, 3> moved;
+    std::array<double, 3> moved{};
     for (int i = 0; i < 3; ++i) {
       moved[i] = rotation[i][0] * x + rotation[i][1] * y + rotation[i][2] * z + translation[i];
     }
@@ -28,13 +28,13 @@ struct RigidMotion {
   }
   std::array<double, 3> apply_inverse(double x, double y, double z) const {
     const double dx = x - translation[0], dy = y - translation[1], dz = z - translation[2];
-    std::array<double, 3> moved;
+    std::array<double, 3> moved{};
     for (int i = 0; i < 3; ++i) moved[i] = rotation[0][i] * dx + rotation[1][i] * dy + rotation[2][i] * dz;
     return moved;
   }
 
-  double rotation[3][3];
-  double translation[3];
+  double rotation[3][3] = {};
+  double translation[3] = {};
 };
 
 }  // namespace
@@ -46,7 +46,7 @@ std::vector<ProjectedPoint> project_points(const AngularGrid& grid, const PointC
   const auto project = [&](std::size_t begin, std::size_t end) {
     // Blocks that stay in the cache between the passes; each pass is one SIMD loop.
     constexpr std::size_t kBlock = 512;
-    std::array<float, kBlock> x, y, z;
+    float x[kBlock], y[kBlock], z[kBlock];
     for (; begin < end; begin += kBlock) {
       const std::size_t size = std::min(kBlock, end - begin);
       const Point3f* points = &cloud.positions[begin];

@@ -53,7 +53,7 @@ bool code_band(Coder& mask_coder, Coder& range_coder, const BandSetting& setting
       ranges.start_step();
       const int first_row = std::max(0, (step - columns) / kLag + (step >= columns ? 1 : 0));
       const int end_row = std::min(rows, step / kLag + 1);
-      std::array<int, kRows> hit_rows;
+      int hit_rows[kRows];
       std::size_t hits = 0;
       const auto range_of = [&](int row) HWY_ATTR -> float& {
         return image.range_m[static_cast<std::size_t>(row_start[static_cast<std::size_t>(row)] + step)];

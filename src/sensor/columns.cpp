@@ -1,7 +1,6 @@
 #include "sensor/columns.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -239,7 +238,7 @@ POINTREEL_SIMD_LOOPS void fill_azimuths(const SensorModel& model, const PolarPoi
                                         std::size_t last, RawVector<float>& azimuths) {
   constexpr auto kTurnF = static_cast<float>(kTurn);
   constexpr std::size_t kBlock = 256;
-  std::array<float, kBlock> alpha_rad, side_m, side_rad;
+  float alpha_rad[kBlock], side_m[kBlock], side_rad[kBlock];
   for (std::size_t first = from; first < last; first += kBlock) {
     const std::size_t count = std::min(kBlock, last - first);
     for (std::size_t k = 0; k < count; ++k) {
@@ -251,7 +250,7 @@ POINTREEL_SIMD_LOOPS void fill_azimuths(const SensorModel& model, const PolarPoi
     const float* azimuth_rad = &polar.azimuth_rad[first];
     const float* rho_m = &polar.rho_m[first];
     float* column_rad = &azimuths[first];
-    side_turns(side_m.data(), rho_m, count, side_rad.data());
+    side_turns(side_m, rho_m, count, side_rad);
     for (std::size_t k = 0; k < count; ++k) {
       float azimuth = azimuth_rad[k] - alpha_rad[k] - side_rad[k];
       azimuth += azimuth < 0 ? kTurnF : 0.0F;

@@ -1,7 +1,6 @@
 #include "sensor/polar_points.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 
@@ -59,7 +58,7 @@ inline void undo_motion(const Twist& twist, std::span<float> xs, std::span<float
 POINTREEL_SIMD_LOOPS void fill_piece(const PointCloud& cloud, const std::optional<Twist>& motion,
                                      std::size_t from, std::size_t last, PolarPoints& polar) {
   constexpr std::size_t kBlock = 256;
-  std::array<float, kBlock> x, y, z;
+  float x[kBlock], y[kBlock], z[kBlock];
   for (std::size_t first = from; first < last; first += kBlock) {
     const std::size_t block = std::min(kBlock, last - first);
     for (std::size_t k = 0; k < block; ++k) {

@@ -1,7 +1,6 @@
 #include "sensor/projection.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -48,9 +47,10 @@ class Measurement {
                                      const std::vector<std::int16_t>& rows, std::size_t first,
                                      std::size_t count, GriddedSweep& sweep) const {
     // Doubles: what is off by 2e-7 is off by 0.02 mm 80 m away.
-    std::array<double, kBlock> slope, offset_m, cosine, ray_rad, vertical_m, squared_m2;
-    std::array<float, kBlock> side_m, side_rad;
-    std::array<std::int32_t, kBlock> cell;
+    double slope[kBlock], offset_m[kBlock], cosine[kBlock], ray_rad[kBlock], vertical_m[kBlock],
+        squared_m2[kBlock];
+    float side_m[kBlock], side_rad[kBlock];
+    std::int32_t cell[kBlock];
     const auto column_count = static_cast<std::int32_t>(columns_.tick.size());
     const std::int16_t* row = &rows[first];
     const std::int32_t* column = &columns_.column_of_point[first];
@@ -61,11 +61,11 @@ class Measurement {
     for (std::size_t k = 0; k < count; ++k) other_rows |= row[k] != row[0] ? 1 : 0;
     if (other_rows == 0) {  // as a rule, where row follows row
       const Row& r = row_of(row[0]);
-      std::fill_n(slope.begin(), count, r.slope);
-      std::fill_n(offset_m.begin(), count, r.offset_m);
-      std::fill_n(side_m.begin(), count, r.side_m);
-      std::fill_n(cosine.begin(), count, r.cosine);
-      std::fill_n(ray_rad.begin(), count, r.azimuth_rad);
+      std::fill_n(slope, count, r.slope);
+      std::fill_n(offset_m, count, r.offset_m);
+      std::fill_n(side_m, count, r.side_m);
+      std::fill_n(cosine, count, r.cosine);
+      std::fill_n(ray_rad, count, r.azimuth_rad);
     } else {
       for (std::size_t k = 0; k < count; ++k) {
         const Row& r = row_of(row[k]);
@@ -87,7 +87,7 @@ class Measurement {
     float* range_m = &sweep.range_m[first];
     float* deviation_m = &sweep.deviation_m[first];
     const double most_m2 = most_m_ * most_m_;
-    side_turns(side_m.data(), rho_m, count, side_rad.data());
+    side_turns(side_m, rho_m, count, side_rad);
     for (std::size_t k = 0; k < count; ++k) {
       const double rho = rho_m[k];
       const double above = z_m[k] - offset_m[k];
@@ -103,8 +103,8 @@ class Measurement {
     }
     int strays = 0;
     for (std::size_t k = 0; k < count; ++k)
-      strays |= (cell[k] < 0) | !(range_m[k] > 0) | (squared_m2[k] > most_m2) ? 1 : 0;
-    std::copy_n(cell.begin(), count, sweep.cell_of_point.begin() + static_cast<std::ptrdiff_t>(first));
+      strays |= (cell[k] < 0 ? 1 : 0) | (range_m[k] > 0 ? 0 : 1) | (squared_m2[k] > most_m2 ? 1 : 0);
+    std::copy_n(cell, count, sweep.cell_of_point.begin() + static_cast<std::ptrdiff_t>(first));
     if (strays == 0) return;
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t i = first + k;

@@ -211,7 +211,10 @@ std::vector<std::int32_t> ring_values(const PointCloud& cloud) {
 
 std::vector<std::int16_t> assign_rows(const SensorModel& model, const PointCloud& cloud,
                                       const PolarPoints& polar, int threads) {
-  if (model.rows.empty()) return std::vector<std::int16_t>(polar.size(), kNoRow);
+  if (model.rows.empty()) {
+    std::vector<std::int16_t> none(polar.size(), kNoRow);
+    return none;
+  }
   if (!model.ring_of_row.empty()) {
     const auto rings = ring_values(cloud);
     if (!rings.empty()) return rows_by_ring(model, rings, polar);
@@ -240,7 +243,7 @@ void settle_rows(const SensorModel& model, const PolarPoints& polar, int threads
   if (!model.ring_of_row.empty() || model.rows.empty()) return;
   const NearestRow nearest(model);
   const auto settle_block = [&](std::size_t first, std::size_t last) {
-    std::array<float, kBlock> slope, offset_m;
+    float slope[kBlock], offset_m[kBlock];
     const std::size_t count = last - first;
     for (std::size_t k = 0; k < count; ++k) {
       const RowModel& row = model.rows[rows[first + k] < 0 ? 0 : static_cast<std::size_t>(rows[first + k])];

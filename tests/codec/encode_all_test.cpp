@@ -26,9 +26,10 @@ std::vector<PosedSweep> mixed_drive(bool with_poses) {
   return sweeps;
 }
 
-std::vector<Encoder::Packets> encode_one_by_one(Encoder& encoder, std::vector<PosedSweep> sweeps) {
+std::vector<Encoder::Packets> encode_one_by_one(Encoder& encoder, const std::vector<PosedSweep>& sweeps) {
   std::vector<Encoder::Packets> packets;
-  for (auto& [cloud, pose] : sweeps) packets.push_back(encoder.encode(std::move(cloud), pose));
+  packets.reserve(sweeps.size());
+  for (const auto& [cloud, pose] : sweeps) packets.push_back(encoder.encode(cloud, pose));
   return packets;
 }
 

@@ -156,6 +156,7 @@ TEST_F(Temporal, GroupsDecodeSideBySideAsTheyDoOneAfterTheOther) {
     for (const auto& packets : {whole, without_key, damaged, spoilt, without_first}) {
       auto one_by_one = decoder_of(options, 1);
       std::vector<Result<DecodedSweep>> expected;
+      expected.reserve(packets.size());
       for (const Packet& packet : packets) expected.push_back(std::move(one_by_one.decode({&packet, 1})[0]));
       for (const int threads : {1, 2, 3, 8}) {
         for (const std::size_t first_call : {packets.size(), std::size_t{3}}) {
