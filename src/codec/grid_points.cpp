@@ -4,8 +4,8 @@
 
 namespace pointreel {
 
-PointCells cells_of_points(const CodingGrid& coding, const OrderedPoints& points,
-                           std::span<const float> range_of_cell_m, int threads) {
+PointCells point_cells(const CodingGrid& coding, const OrderedPoints& points,
+                       std::span<const float> range_of_cell_m, int threads) {
   const std::size_t count = points.cells.size() + points.strays.size();
   PointCells of;
   of.rows = static_cast<std::uint32_t>(coding.rows());

@@ -42,8 +42,8 @@ struct PointCells {
   RawVector<float> range_m;               // decoded, along the ray; 0 off the grid
 };
 
-PointCells cells_of_points(const CodingGrid& coding, const OrderedPoints& points,
-                           std::span<const float> range_of_cell_m, int threads);
+PointCells point_cells(const CodingGrid& coding, const OrderedPoints& points,
+                       std::span<const float> range_of_cell_m, int threads);
 PointCells points_without_cells(std::size_t count);
 
 FiringPlaces firing_places(const SensorModel& model, const SweepGrid& grid, const OrderedPoints& points);

@@ -115,9 +115,9 @@ class GroupDecoder {
     if (sweep.cloud.count_non_finite() > 0)
       return Error{ErrorCode::corrupt, "it holds a position that is not finite"};
     const auto find_cells = [&] {
-      return begun.cells ? cells_of_points(begun.cells->coding, geometry->points,
-                                           begun.cells->range_of_cell_m, threads)
-                         : points_without_cells(sweep.cloud.size());
+      return begun.cells
+                 ? point_cells(begun.cells->coding, geometry->points, begun.cells->range_of_cell_m, threads)
+                 : points_without_cells(sweep.cloud.size());
     };
     auto fields = decode_fields(find_cells, threads, reader);
     if (!fields) return fields.error();

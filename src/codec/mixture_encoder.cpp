@@ -112,9 +112,8 @@ class MixtureEncoder final : public Encoder::Implementation {
       encoded = encode_scattered_sweep(sweep.cloud, writer, packet.statistics);
     }
     const auto find_cells = [&] {
-      return sweep.model
-                 ? cells_of_points(sweep.cells->coding, encoded.points, cells.range_of_cell_m, threads_)
-                 : points_without_cells(sweep.cloud.size());
+      return sweep.model ? point_cells(sweep.cells->coding, encoded.points, cells.range_of_cell_m, threads_)
+                         : points_without_cells(sweep.cloud.size());
     };
     encode_fields(fields_, sweep.cloud, encoded.output_order, find_cells, threads_, writer,
                   packet.statistics);

@@ -78,13 +78,13 @@ std::optional<Error> encode_sweeps(Encoder& encoder, ReelWriter& writer,
                                    const std::vector<Pose>& poses, int threads, EncodeTotals& totals) {
   Progress progress("encoding", inputs.size());
   std::optional<Error> fault;
-  std::optional<Stopwatch> since_packets(std::in_place);
+  Stopwatch since_packets;
   double reading_ms = 0;  // since then, where nothing else is done meanwhile
   const bool reads_beside = threads > 1 && encoder.header().on_sensor_grid();
   const auto write = [&](const Encoder::Packets& packets) {
     if (!packets) fault = packets.error();
     if (fault || packets->empty()) return !fault;
-    const double ms = since_packets->elapsed_ms() - std::exchange(reading_ms, 0);
+    const double ms = since_packets.elapsed_ms() - std::exchange(reading_ms, 0);
     for (const Packet& packet : *packets) {
       if (auto written = writer.write(packet); !written) {
         fault = written.error();
@@ -94,7 +94,7 @@ std::optional<Error> encode_sweeps(Encoder& encoder, ReelWriter& writer,
       totals.ms_per_frame.push_back(ms / static_cast<double>(packets->size()));
     }
     progress.advance_to(totals.frames);
-    since_packets.emplace();
+    since_packets = Stopwatch();
     return true;
   };
   InputSweeps files(inputs, poses, threads);

@@ -117,10 +117,10 @@ class Verifier {
   Result<void> time_encoder() {
     Result<void> good;
     std::vector<double> encode_ms;
-    std::optional<Stopwatch> start(std::in_place);
+    Stopwatch start;
     const auto take = [&](const Encoder::Packets& packets) {
-      encode_ms.push_back(start->elapsed_ms());
-      start.emplace();
+      encode_ms.push_back(start.elapsed_ms());
+      start = Stopwatch();
       if (!packets) good = packets.error();
       return static_cast<bool>(good);
     };
