@@ -93,7 +93,6 @@ built_by() {
 case $build in
   as_built) as_built ;;
   gcc_O0_scalar) built_by "g++ -O0 -DHWY_COMPILE_ONLY_SCALAR -DPOINTREEL_SIMD_LOOPS=" "" ;;
-  clang_O0) built_by "clang++ -O0 -DHWY_COMPILE_ONLY_EMU128" "" ;;
   clang_O3) built_by "clang++ -O3" -lhwy ;;
   # (-O0 as well agrees, but takes a minute to run under qemu; -O3 takes 20 s longer to compile.)
   aarch64_O2) built_by "aarch64-linux-gnu-g++ -O2 -DHWY_COMPILE_ONLY_STATIC -static" "" qemu-aarch64 ;;
