@@ -45,8 +45,9 @@ SymbolModel::SymbolModel(std::span<const std::uint64_t> weights, std::uint32_t r
   grow(mass_before);
   class_of_ = quantiles(mass_before);
 
-  const std::array<std::size_t, kContexts> contexts = {groups_ * kStepClasses, kGroupClasses * kGroupClasses,
-                                                       rows_ * kRangeClasses};
+  const std::array<std::size_t, kContexts> contexts = {std::size_t{groups_} * kStepClasses,
+                                                       std::size_t{kGroupClasses} * kGroupClasses,
+                                                       std::size_t{rows_} * kRangeClasses};
   for (std::size_t i = 0; i < kContexts; ++i)
     bits_[i].resize(contexts[i] * std::max<std::size_t>(nodes_.size(), 1));
   low_.resize(std::size_t{groups_} << low_bits_);
@@ -96,7 +97,7 @@ std::vector<std::uint8_t> SymbolModel::quantiles(std::span<const std::uint64_t> 
 template <class Coder>
 std::uint32_t SymbolModel::code_group(Coder& coder, const std::array<std::uint32_t, kContexts>& context,
                                       std::uint32_t group) {
-  std::array<CountedBit*, kContexts> base;
+  std::array<CountedBit*, kContexts> base{};
   for (std::size_t i = 0; i < kContexts; ++i) base[i] = bits_[i].data() + context[i] * nodes_.size();
   Mixer::Inputs inputs;
   inputs[kContexts] = kBias;

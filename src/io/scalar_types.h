@@ -82,7 +82,7 @@ inline FieldValues make_values(ScalarType type, std::size_t count) {
 
 template <class T>
 T load(const char* bytes, std::endian byte_order) {
-  std::array<char, sizeof(T)> raw;
+  std::array<char, sizeof(T)> raw{};
   std::memcpy(raw.data(), bytes, sizeof(T));
   if (byte_order != std::endian::native) std::reverse(raw.begin(), raw.end());
   return std::bit_cast<T>(raw);
@@ -119,7 +119,7 @@ std::optional<T> parse_number(std::string_view word) {
 // The shortest text that reads back as the same value (a NaN keeps its sign but not its payload).
 template <class T>
 void append_number(std::string& text, T value) {
-  std::array<char, 32> buffer;  // the longest double, -2.2250738585072014e-308, has 24 characters
+  std::array<char, 32> buffer{};  // the longest double, -2.2250738585072014e-308, has 24 characters
   const auto written = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
   text.append(buffer.data(), written.ptr);
 }

@@ -17,7 +17,7 @@ namespace HWY_NAMESPACE {
 // The first two surfaces seen around each of eight cells that are neither the blend's nor each other's.
 struct Alternatives {
   static constexpr std::size_t kMost = 2;
-  enum Kind : std::uint8_t { kNone, kStart, kAbove, kAboveRight, kOther };
+  enum Kind : std::uint8_t { kNone, kAtStart, kFromAbove, kFromAboveRight, kOther };
 
   alignas(32) float range_m[kMost][8];  // 0: none
   alignas(32) std::int32_t kind[kMost][8];
@@ -38,9 +38,9 @@ struct Alternatives {
       first_m = select(first, seen_m, first_m);
       first_kind = select(as_int_mask(first), all_ints<8>(its_kind), first_kind);
     };
-    look_at(around.start, kStart);
-    look_at(around.above, kAbove);
-    look_at(around.above_right, kAboveRight);
+    look_at(around.start, kAtStart);
+    look_at(around.above, kFromAbove);
+    look_at(around.above_right, kFromAboveRight);
     look_at(around.above_right2, kOther);
     look_at(memory.edge_m(), kOther);
     look_at(memory.earlier_edge_m(), kOther);

@@ -43,7 +43,8 @@ bool code_band(Coder& mask_coder, Coder& range_coder, const BandSetting& setting
     std::array<std::ptrdiff_t, kRows> row_start{};
     for (int row = 0; row < rows; ++row) {
       row_start[static_cast<std::size_t>(row)] =
-          static_cast<std::ptrdiff_t>(image.index(band.first_row + first + row, 0)) - kLag * row;
+          static_cast<std::ptrdiff_t>(image.index(band.first_row + first + row, 0)) -
+          std::ptrdiff_t{kLag} * row;
     }
     mask.start_block(first == 0);
     ranges.start_block(first == 0, phase_m);

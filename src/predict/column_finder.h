@@ -67,7 +67,7 @@ class ColumnFinder {
 
   // Bins that start in [from_turn, to_turn), of two turns.
   void fill(double from_turn, double to_turn, double column, double at_turn, double step) {
-    const double bins = static_cast<double>(bins_);
+    const auto bins = static_cast<double>(bins_);
     for (auto bin = static_cast<std::size_t>(std::ceil(std::max(0.0, from_turn * bins))); bin <= 2 * bins_;
          ++bin) {
       const double turn = static_cast<double>(bin) / bins;

@@ -153,7 +153,7 @@ class FastRangeModel {
   static POINTREEL_INLINE std::int32_t code_rest(Coder& coder, std::size_t symbol, std::int32_t coarse) {
     const BinSymbols::Group& group = kBinSymbols.group[symbol];
     if (group.bits == 0) return group.nearest;
-    const std::int32_t beyond = static_cast<std::int32_t>(
+    const auto beyond = static_cast<std::int32_t>(
         coder.code_bits(static_cast<std::uint32_t>(std::abs(coarse - group.nearest)), group.bits));
     return group.nearest + (group.nearest < 0 ? -beyond : beyond);
   }

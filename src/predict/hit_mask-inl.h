@@ -65,7 +65,7 @@ class HitMaskModel {
       if (i == HitMaskState::kDensity) slot |= contexts_.density_class(cell);
       terms[i] = &state_.terms[i][slot];
     }
-    float move;
+    float move = 0;
     hit = code_sum(coder, 0, terms, kRate, hit, move);
     hits_[cell] = hit ? 1 : 0;
     return hit;

@@ -42,15 +42,7 @@ class Mixture {
   POINTREEL_INLINE Mixture() {}
   POINTREEL_INLINE Mixture(const MixtureState& state, const BlendedProposals<kExperts>& blended,
                            std::size_t cell)
-      : proposals_m_(load_turned<kExperts>(blended.range_m, cell)),
-        error_class_(static_cast<std::size_t>(blended.error_class[cell])) {
-    const MixtureState::PerClass& per_class = state.classes[error_class_];
-    weight_ = load<kExperts>(per_class.weight.data());
-    // Learnt relative to the expert's recent error.
-    inverse_scale_ =
-        load<kExperts>(per_class.inverse_scale.data()) * load_turned<kExperts>(blended.inverse_scale, cell);
-    per_total_weight_ = 1 / sum(weight_);
-  }
+      : Mixture(state, static_cast<std::size_t>(blended.error_class[cell]), blended, cell) {}
 
   POINTREEL_INLINE void evaluate(float x_m, Border& border) const {
     const Lanes z = (all<kExperts>(x_m) - proposals_m_) * inverse_scale_;
@@ -102,6 +94,16 @@ class Mixture {
   float per_total_weight_;
 
  private:
+  // Scales are learnt relative to the expert's recent error.
+  POINTREEL_INLINE Mixture(const MixtureState& state, std::size_t error_class,
+                           const BlendedProposals<kExperts>& blended, std::size_t cell)
+      : proposals_m_(load_turned<kExperts>(blended.range_m, cell)),
+        weight_(load<kExperts>(state.classes[error_class].weight.data())),
+        inverse_scale_(load<kExperts>(state.classes[error_class].inverse_scale.data()) *
+                       load_turned<kExperts>(blended.inverse_scale, cell)),
+        per_total_weight_(1 / sum(weight_)),
+        error_class_(error_class) {}
+
   std::size_t error_class_;
 };
 

@@ -95,7 +95,7 @@ class RangeModel {
     CellBins& bins = bins_[cell];
     const std::int32_t wanted = Coder::kDecodes ? 0 : rounded((range_m - bins.origin_m()) / coded_.step_m);
     const StepContext context = context_of(cell, row);
-    std::int32_t steps;
+    std::int32_t steps = 0;
     if constexpr (has_trust(kKind)) {
       const auto proposed = bins.mixture().steps_from(bins.origin_m(), 1 / coded_.step_m);
       steps = coded_steps(coder, bins,

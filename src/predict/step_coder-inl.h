@@ -36,7 +36,7 @@ POINTREEL_INLINE bool code_corrected(Coder& coder, bool second_stage, float p, f
   if (!second_stage) return coder.code_with(bit, to_probability(p));
   constexpr float kTermRate = 0.01F, kWeightRate = 1.F / 256;
   const float answer = stretched(p);
-  float move;
+  float move = 0;
   bit = code_sum(coder, weight * answer, terms, kTermRate, bit, move);
   weight = weight + kWeightRate / kTermRate * move * answer;
   return bit;

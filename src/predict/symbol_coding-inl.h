@@ -103,8 +103,7 @@ POINTREEL_INLINE std::size_t code_symbol(Coder& coder, const SymbolLanes& cumula
     const hn::RebindToSigned<SymbolLanes::Tag> tag;
     const auto place = hn::Set(tag, static_cast<std::int16_t>(coder.next_place(kWholeBits)));
     symbol = kSymbols;
-    for (std::size_t i = 0; i < SymbolLanes::kParts; ++i)
-      symbol -= hn::CountTrue(tag, hn::Gt(hn::BitCast(tag, ends.part[i]), place));
+    for (const auto& part : ends.part) symbol -= hn::CountTrue(tag, hn::Gt(hn::BitCast(tag, part), place));
     symbol = symbol < kSymbols ? symbol : kSymbols - 1;
   }
   const std::uint32_t first = symbol == 0 ? 0 : end.cumulative[symbol - 1];

@@ -8,6 +8,7 @@ namespace {
 
 double median_magnitude(const std::vector<RowSample>& samples, double (*value)(const RowSample&)) {
   std::vector<double> values;
+  values.reserve(samples.size());
   for (const RowSample& s : samples) values.push_back(std::fabs(value(s)));
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());

@@ -122,8 +122,8 @@ TwistStep improve(const TwistSamples& samples, const std::vector<RowModel>& rows
       const double rho = polar.rho_m[i];
       const double azimuth = polar.azimuth_rad[i];
       const double s = azimuth / kTurn;
-      const double cos_a = static_cast<double>(std::cos(polar.azimuth_rad[i]));
-      const double sin_a = static_cast<double>(std::sin(polar.azimuth_rad[i]));
+      const auto cos_a = static_cast<double>(std::cos(polar.azimuth_rad[i]));
+      const auto sin_a = static_cast<double>(std::sin(polar.azimuth_rad[i]));
       const double z = polar.z_m[i];
       up.add(height_gradient(row, s, rho, cos_a, sin_a, z), {-rho, -1}, heights_m[i],
              (1 - t * t) * (1 - t * t));

@@ -49,8 +49,8 @@ class Road {
 
  private:
   struct Wave {
-    double slope;  // amplitude of dy/dx
-    double radpm;
+    double slope = 0;  // amplitude of dy/dx
+    double radpm = 0;
     double phase_rad = 0;
   };
   // Tightest curve: radius about 110 m.

@@ -54,6 +54,7 @@ TEST_F(Groups, PacketsComeWhenTheirGroupIsFull) {
   auto encoder = Encoder::create(options_with_group(3));
   ASSERT_TRUE(encoder);
   std::vector<std::size_t> counts;
+  counts.reserve(sweeps_.size() + 2);
   for (const PointCloud& sweep : sweeps_) counts.push_back(encoder->encode(sweep)->size());
   counts.push_back(encoder->finish()->size());
   counts.push_back(encoder->finish()->size());

@@ -58,8 +58,8 @@ TEST_F(PlyFile, ReadsBothByteOrdersBesideOtherElements) {
 }
 
 TEST_F(PlyFile, AcceptsZeroPoints) {
-  for (const auto format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
-    const auto cloud = read("ply\nformat " + std::string(format) + " 1.0\nelement vertex 0\n" +
+  for (const std::string format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+    const auto cloud = read("ply\nformat " + format + " 1.0\nelement vertex 0\n" +
                             std::string(vertex_header) + "end_header\n");
     ASSERT_TRUE(cloud) << cloud.error().message;
     EXPECT_EQ(cloud->size(), 0u);
@@ -82,9 +82,10 @@ TEST_F(PlyFile, RejectsCountsThatTheFileCannotHold) {
   expect_error(read(file("ascii", few_points + lists, "1 2 3\n0\n")), ErrorCode::truncated, {"'face'"});
   expect_error(read(file(binary, few_points + lists, std::string(16, '\0'))), ErrorCode::truncated,
                {"'face'"});
-  const std::string negative_length = file(binary, few_points + lists, std::string(12, '\0') + bytes_of(-1));
+  const std::string negative_length =
+      file(binary, few_points + lists, std::string(12, '\0') + bytes_of(std::int32_t{-1}));
   expect_error(read(negative_length), ErrorCode::truncated,
-               {"offset " + std::to_string(negative_length.size() - sizeof(-1)), "'face'"});
+               {"offset " + std::to_string(negative_length.size() - sizeof(std::int32_t)), "'face'"});
   const std::string nothing = "element nothing 18446744073709551615\n";
   EXPECT_TRUE(read(file("ascii", nothing + few_points, "1 2 3\n")));
   EXPECT_TRUE(read(file(binary, nothing + few_points, std::string(12, '\0'))));

@@ -55,6 +55,7 @@ RC_GTEST_PROP(Octree, BringsBackAnyCells, ()) {
   const std::uint64_t mask = (std::uint64_t{1} << (3 * depth)) - 1;
   for (const auto& [key, count] : keys) cells[key & mask] += count;
   std::vector<OctreeLeaf> leaves;
+  leaves.reserve(cells.size());
   for (const auto& [key, count] : cells) leaves.push_back({key, count});
   expect_round_trip(depth, leaves);
 }
