@@ -20,6 +20,24 @@ inline constexpr float kLargestSquaredErrorM2 = 4;  // an edge, whatever its dep
 template <std::size_t kExperts>
 using ErrorPlanes = SkewedPlane<float, static_cast<int>(kExperts)>;
 
+// Mean squared errors of the experts along each of eight rows: what is right on a kerb stays so. Clipped, so
+// that depth edges, where all are wrong, say little.
+template <std::size_t kExperts>
+struct RowErrors {
+  Float8 mean_square_m2[kExperts];
+
+  POINTREEL_INLINE RowErrors() {}
+  POINTREEL_INLINE explicit RowErrors(float step_m) {
+    for (Float8& mean : mean_square_m2) mean = all<8>(step_m * step_m);
+  }
+  POINTREEL_INLINE void add(std::size_t expert, const Mask<8>& hit, const Float8& square_m2, float step_m) {
+    constexpr float kRate = 1.F / 16, kMostSquaredSteps = 3;
+    Float8& mean = mean_square_m2[expert];
+    mean =
+        mean + where(hit, kRate * (smaller(square_m2, all<8>(kMostSquaredSteps * step_m * step_m)) - mean));
+  }
+};
+
 // Weights of the coded neighbours of a cell in the recent errors; 0 where there is none.
 struct NeighbourWeights {
   Float8 left, left2, above, above_left, above_right, above2;
@@ -48,6 +66,7 @@ struct BlendedProposals {
   alignas(32) float blend_m[8];
   alignas(32) std::int32_t error_class[8];
   alignas(32) std::int32_t spread_class[8];  // the same for how far the proposals lie from the blend
+  Float8 squared_error;                      // of the blend, in squared steps
 
   POINTREEL_INLINE BlendedProposals() {}
 };
@@ -77,8 +96,10 @@ POINTREEL_INLINE float error_floor(float step_m) {
 
 // Replaces lane 0 of `proposals` by the blend. `precision`: of each proposal, 1 / its recent squared error.
 template <std::size_t kExperts>
-POINTREEL_INLINE Blend weigh(const ErrorPlanes<kExperts>& errors, const Neighbourhood& cells, int step,
-                             float step_m, Proposals<kExperts>& proposals, Float8 (&precision)[kExperts]) {
+POINTREEL_INLINE Blend weigh(const ErrorPlanes<kExperts>& errors, const RowErrors<kExperts>& row_errors,
+                             const Neighbourhood& cells, int step, float step_m,
+                             Proposals<kExperts>& proposals, Float8 (&precision)[kExperts]) {
+  constexpr float kRowShare = 0.5F;
   constexpr float kUnknownSquaredSteps = 30;  // the experts' error where no neighbour is known
   constexpr std::ptrdiff_t kPitch = ErrorPlanes<kExperts>::kPitch;
   const NeighbourWeights weights(cells);
@@ -101,7 +122,8 @@ POINTREEL_INLINE Blend weigh(const ErrorPlanes<kExperts>& errors, const Neighbou
     const Float8 in_column = load<8>(above + at) * weights.above + load<8>(above2 + at) * weights.above2;
     const Float8 across =
         load<8>(above_left + at) * weights.above_left + load<8>(above_right + at) * weights.above_right;
-    const Float8 mean_square = ((in_row + in_column) + across) + unknown;
+    const Float8 mean_square =
+        (((in_row + in_column) + across) + unknown) + kRowShare * row_errors.mean_square_m2[k];
     precision[k] = all<8>(1) / (mean_square + all<8>(floor));
     if (k == 0) {
       blend.squared_error = (1 / squared_step) * mean_square;
@@ -124,10 +146,12 @@ POINTREEL_INLINE Blend weigh(const ErrorPlanes<kExperts>& errors, const Neighbou
 
 // The same with all that the mixture looks at, which is one of the first kMixed experts.
 template <std::size_t kExperts, std::size_t kMixed>
-HWY_NOINLINE void blend(const ErrorPlanes<kExperts>& errors, const Neighbourhood& cells, int step,
-                        float step_m, Proposals<kExperts>& proposals, BlendedProposals<kMixed>& blended) {
+HWY_NOINLINE void blend(const ErrorPlanes<kExperts>& errors, const RowErrors<kExperts>& row_errors,
+                        const Neighbourhood& cells, int step, float step_m, Proposals<kExperts>& proposals,
+                        BlendedProposals<kMixed>& blended) {
   Float8 precision[kExperts];
-  const Blend blend = weigh<kExperts>(errors, cells, step, step_m, proposals, precision);
+  const Blend blend = weigh<kExperts>(errors, row_errors, cells, step, step_m, proposals, precision);
+  blended.squared_error = blend.squared_error;
   store(blend.range_m, blended.blend_m);
   store(error_classes(blend.squared_error), blended.error_class);
   store(error_classes(blend.spread), blended.spread_class);
@@ -147,12 +171,16 @@ HWY_NOINLINE void blend(const ErrorPlanes<kExperts>& errors, const Neighbourhood
 // smooth surface.
 template <std::size_t kExperts>
 HWY_NOINLINE void remember_errors(const Proposals<kExperts>& proposals, const Float8& decoded_m,
-                                  bool proposed, float step_m, int step, ErrorPlanes<kExperts>& errors) {
+                                  bool proposed, float step_m, int step, ErrorPlanes<kExperts>& errors,
+                                  RowErrors<kExperts>& row_errors) {
   constexpr float kUnknownSquaredSteps = 0.1F;
+  const Mask<8> hit = seen(decoded_m);
   float* to = errors.at(step);
   for (std::size_t k = 0; k < kExperts; ++k) {
     const Float8 error_m = proposals.range_m[k] - decoded_m;
-    store(proposed ? smaller(error_m * error_m, all<8>(kLargestSquaredErrorM2))
+    const Float8 square_m2 = error_m * error_m;
+    if (proposed) row_errors.add(k, hit, square_m2, step_m);
+    store(proposed ? smaller(square_m2, all<8>(kLargestSquaredErrorM2))
                    : all<8>(kUnknownSquaredSteps * step_m * step_m),
           to + k * ErrorPlanes<kExperts>::kPitch);
   }

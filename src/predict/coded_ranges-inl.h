@@ -28,6 +28,7 @@ struct CodedRanges {
   bool on_lattice;
   RangePlanes planes;
   ErrorPlanes<kExperts> errors;
+  RowErrors<kExperts> row_errors;
   SkewedPlane<std::int32_t> steps;  // clipped
   RowMemory memory;
   std::array<float, Wavefront::kRows> lattice_phase_m{};
@@ -52,6 +53,7 @@ struct CodedRanges {
       errors.start_next_block();
       steps.start_next_block();
     }
+    row_errors = RowErrors<kExperts>(step_m);
     memory = RowMemory();
     lattice_phase_m = phase_m;
   }
@@ -77,6 +79,22 @@ struct CodedRanges {
     return decoded_m[cell];
   }
 
+  // Later cells see ranges where in their bins they are likely to be: nearer to the prediction, by a share
+  // `beside` of a step in the bins beside it and `beyond` in others, less where it was wrong lately (in
+  // squared steps). On the lattice the reconstruction is exact.
+  POINTREEL_INLINE void lean_to_prediction(float beside, float beyond, const Float8& squared_error) {
+    constexpr float kPerSquaredStep = 0.5F;
+    if (!proposed || on_lattice) return;
+    const Float8 range_m = load<8>(decoded_m);
+    const Int8 one = all_ints<8>(1), minus_one = all_ints<8>(-1);
+    const Int8 steps_away = load_ints<8>(coded_steps);
+    const Int8 first = larger(smaller(steps_away, one), minus_one);
+    const Int8 next = larger(smaller(steps_away - first, one), minus_one);
+    const Float8 by_m = (beside * step_m) * as_floats(first) + ((beyond - beside) * step_m) * as_floats(next);
+    const Float8 leant_m = range_m - by_m / (all<8>(1) + kPerSquaredStep * squared_error);
+    store(where(seen(range_m), larger(leant_m, all<8>(kSmallestRangeM))), decoded_m);
+  }
+
   // After the last of the eight. Returns 1 / range; 0 where there is no return.
   POINTREEL_INLINE Float8 remember(int step) {
     const Float8 range_m = load<8>(decoded_m);
@@ -84,7 +102,7 @@ struct CodedRanges {
     store(range_m, planes.range_m.at(step));
     store(inverse, planes.inverse_range.at(step));
     store(load_ints<8>(coded_steps), steps.at(step));
-    remember_errors(proposals, range_m, proposed, step_m, step, errors);
+    remember_errors(proposals, range_m, proposed, step_m, step, errors, row_errors);
     memory.add(range_m);
     return inverse;
   }

@@ -13,6 +13,7 @@
 #include "predict/local_fits-inl.h"
 #include "predict/range_state.h"
 #include "predict/reference-inl.h"
+#include "predict/reference_bias-inl.h"
 #include "predict/row_lines-inl.h"
 #include "predict/row_memory-inl.h"
 
@@ -42,7 +43,7 @@ enum KeyExpert : std::uint8_t {
   kKeyEarlierEdge = 15,
 };
 enum PredictedExpert : std::uint8_t {
-  kReferenceHere = 5,      // the warped reference's range
+  kReferenceHere = 5,      // the warped reference's range, its bias in the row corrected
   kReferenceRight = 6,     // its neighbours: what moved
   kReferenceLeftStep = 7,  // its step from the cell left
   kReferenceMean = 11,     // mean of three cells, plus the mean difference to what is coded around
@@ -183,7 +184,8 @@ template <CodingKind kKind>
 HWY_NOINLINE Proposals<experts_of(kKind)> propose_for_predicted_frame(const Neighbourhood& cells,
                                                                       const RowMemory& memory,
                                                                       const RowLines& lines,
-                                                                      const ReferenceView& reference) {
+                                                                      const ReferenceView& reference,
+                                                                      const ReferenceBias& bias) {
   const Float8 here = reference.range_m(0);
   const Float8 west = reference.range_m(-1), east = reference.range_m(1);
   const Surroundings around(cells, memory, here);
@@ -197,12 +199,12 @@ HWY_NOINLINE Proposals<experts_of(kKind)> propose_for_predicted_frame(const Neig
   } else {
     propose_fits(cells, around, range_m);
   }
-  range_m[kReferenceHere] = around.or_start(here);
+  range_m[kReferenceHere] = around.or_start(bias.corrected(here));
   range_m[kReferenceLeftStep] =
       around.if_likely(where(seen(here) & seen(west) & seen(around.left), around.left + (here - west)));
   const Float8 reference_or_start = range_m[kReferenceHere];
   const auto or_here = [&](const Float8& m) HWY_ATTR { return select(seen(m), m, reference_or_start); };
-  range_m[kReferenceRight] = or_here(east);
+  range_m[kReferenceRight] = or_here(bias.corrected(east));
   if constexpr (has_trust(kKind)) {
     range_m[kPredictedLeft2] = around.or_start(around.left2);
     range_m[kPredictedLine2] = around.line2();

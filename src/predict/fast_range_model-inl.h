@@ -55,8 +55,9 @@ class FastRangeModel {
     const Surroundings around(cells, coded_.memory, all<8>(0));
     coded_.proposals = propose_fast(cells, coded_.memory, lines_, around);
     Float8 precision[kFastExperts];
-    const Blend blend =
-        weigh<kFastExperts>(coded_.errors, cells, step, coded_.step_m, coded_.proposals, precision);
+    const Blend blend = weigh<kFastExperts>(coded_.errors, coded_.row_errors, cells, step, coded_.step_m,
+                                            coded_.proposals, precision);
+    squared_error_ = blend.squared_error;
     store(blend.range_m, blend_m_);
     const Int8 error = octaves<FastRangeState::kErrors>(blend.squared_error);
     const Int8 spread = shifted_right<2>(octaves<4 * FastRangeState::kSpreads>(blend.spread));
@@ -115,7 +116,10 @@ class FastRangeModel {
   POINTREEL_INLINE Float8 decoded_m() const { return load<8>(coded_.decoded_m); }
 
   // After the last of the eight: remembers them.
-  HWY_NOINLINE void remember(int step) { coded_.remember(step, lines_); }
+  HWY_NOINLINE void remember(int step) {
+    coded_.lean_to_prediction(0.45F, 0.3F, squared_error_);
+    coded_.remember(step, lines_);
+  }
 
  private:
   static constexpr int kMostShift = 3;
@@ -219,6 +223,7 @@ class FastRangeModel {
   // Of the eight cells at hand.
   Alternatives alternatives_;
   alignas(32) float blend_m_[Wavefront::kRows];
+  Float8 squared_error_;  // of the blend, in squared steps
   alignas(32) std::int32_t error_[Wavefront::kRows], shift_[Wavefront::kRows];
   alignas(32) std::int32_t by_error_[Wavefront::kRows], by_signs_[Wavefront::kRows];
 };

@@ -12,6 +12,7 @@
 #define POINTREEL_PREDICT_RANGE_MODEL_INL_H_
 #endif
 
+#include <algorithm>
 #include <type_traits>
 
 #include "predict/band_coding.h"
@@ -36,12 +37,14 @@ class RangeModel {
       : columns_(columns),
         ingredients_(setting.ingredients),
         coded_(columns, setting.quantiser),
+        lean_(std::min(0.3F, 0.015F / coded_.step_m)),
         state_(state) {}
 
   // `lattice_phase_m`: per row, where its lattice has a point.
   void start_block(bool first, const std::array<float, Wavefront::kRows>& lattice_phase_m) {
     coded_.start_block(first, lattice_phase_m);
     lines_ = RowLines();
+    bias_ = ReferenceBias(coded_.step_m);
   }
 
   // Eight cells without returns so far.
@@ -52,13 +55,15 @@ class RangeModel {
     const Neighbourhood cells(coded_.planes, step);
     step_ = step;
     if constexpr (kPredicted) {
-      coded_.proposals =
-          propose_for_predicted_frame<kKind>(cells, coded_.memory, lines_, ReferenceView(*reference, step));
+      const ReferenceView view(*reference, step);
+      reference_m_ = view.range_m(0);
+      coded_.proposals = propose_for_predicted_frame<kKind>(cells, coded_.memory, lines_, view, bias_);
     } else {
       coded_.proposals = propose_for_key_frame(cells, coded_.memory);
     }
     if (ingredients_.experts_off != 0) leave_out_experts();
-    blend<kExperts, kMixed>(coded_.errors, cells, step, coded_.step_m, coded_.proposals, blended_);
+    blend<kExperts, kMixed>(coded_.errors, coded_.row_errors, cells, step, coded_.step_m, coded_.proposals,
+                            blended_);
     contexts_ = StepContexts(coded_.steps, cells, step);
     if constexpr (!has_trust(kKind)) {
       contexts_.find_places(coded_.proposals.range_m, coded_.step_m,
@@ -127,6 +132,10 @@ class RangeModel {
 
   // After the last of the eight: remembers them.
   POINTREEL_INLINE void remember(int step) {
+    if constexpr (kPredicted) {
+      if (coded_.proposed) bias_.add(decoded_m(), reference_m_);
+    }
+    if constexpr (!has_trust(kKind)) coded_.lean_to_prediction(lean_, 0.4F * lean_, blended_.squared_error);
     if constexpr (has_row_lines(kKind)) {
       coded_.remember(step, lines_);
     } else {
@@ -155,12 +164,16 @@ class RangeModel {
   int columns_;
   Ingredients ingredients_;
   CodedRanges<kExperts> coded_;
+  float lean_;  // of a step, as far as noise goes at most: in coarse steps it would follow the prediction's
+                // own errors
   RowLines lines_;
+  ReferenceBias bias_ = ReferenceBias(coded_.step_m);
   BandState& state_;
 
   // Of the eight cells at hand.
   BlendedProposals<kMixed> blended_;
   int step_ = 0;
+  Float8 reference_m_ = all<8>(0);  // the reference's ranges
   StepContexts contexts_;
   std::size_t origin_[Wavefront::kRows];  // the expert around whose proposal the bins lie
   CellBins bins_[Wavefront::kRows];

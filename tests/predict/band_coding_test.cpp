@@ -166,6 +166,30 @@ TEST(BandCoding, AStreetCostsLittleAndAReferenceHelps) {
   EXPECT_LT(with_all.bytes(), alone.bytes());  // (which of the two is ahead real sweeps must say)
 }
 
+TEST(BandCoding, ABiasOfEachRowOfTheReferenceCostsLittle) {
+  // Rough, so that cells around say little; noise, so that a single difference to the reference says little.
+  constexpr int kRows = 64, kColumns = 2000;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> roughness_m(0, 2), noise_m(-kStepM, kStepM);
+  GridImage image{kRows, kColumns, {}}, same{kRows, kColumns, {}}, biased{kRows, kColumns, {}};
+  for (int row = 0; row < kRows; ++row) {
+    const float bias_m = kStepM * static_cast<float>(row % 5 - 2);
+    for (int column = 0; column < kColumns; ++column) {
+      const float range_m = 10 + roughness_m(random);
+      image.range_m.push_back(range_m + noise_m(random));
+      same.range_m.push_back(range_m + noise_m(random));
+      biased.range_m.push_back(same.range_m.back() + bias_m);
+    }
+  }
+  for (const Effort effort : {Effort::balanced, Effort::max}) {
+    const auto bytes = [&](const GridImage& reference) {
+      return static_cast<double>(
+          encode(image, {true, effort}, {kStepM, {}}, reference_of(reference)).bytes());
+    };
+    EXPECT_LT(bytes(biased), 1.05 * bytes(same));
+  }
+}
+
 TEST(BandCoding, AnyBytesDecodeToSomeImageOrEndTooSoon) {
   std::mt19937 random(11);
   const GridImage size = street(64, 500, 1);
