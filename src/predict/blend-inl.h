@@ -174,15 +174,19 @@ HWY_NOINLINE void remember_errors(const Proposals<kExperts>& proposals, const Fl
                                   bool proposed, float step_m, int step, ErrorPlanes<kExperts>& errors,
                                   RowErrors<kExperts>& row_errors) {
   constexpr float kUnknownSquaredSteps = 0.1F;
-  const Mask<8> hit = seen(decoded_m);
+  constexpr std::ptrdiff_t kPitch = ErrorPlanes<kExperts>::kPitch;
   float* to = errors.at(step);
+  if (!proposed) {
+    for (std::size_t k = 0; k < kExperts; ++k)
+      store(all<8>(kUnknownSquaredSteps * step_m * step_m), to + static_cast<std::ptrdiff_t>(k) * kPitch);
+    return;
+  }
+  const Mask<8> hit = seen(decoded_m);
   for (std::size_t k = 0; k < kExperts; ++k) {
     const Float8 error_m = proposals.range_m[k] - decoded_m;
     const Float8 square_m2 = error_m * error_m;
-    if (proposed) row_errors.add(k, hit, square_m2, step_m);
-    store(proposed ? smaller(square_m2, all<8>(kLargestSquaredErrorM2))
-                   : all<8>(kUnknownSquaredSteps * step_m * step_m),
-          to + k * ErrorPlanes<kExperts>::kPitch);
+    row_errors.add(k, hit, square_m2, step_m);
+    store(smaller(square_m2, all<8>(kLargestSquaredErrorM2)), to + static_cast<std::ptrdiff_t>(k) * kPitch);
   }
 }
 

@@ -36,7 +36,7 @@ struct CodedRanges {
   // Of the eight cells at hand.
   Proposals<kExperts> proposals;
   bool proposed = false;
-  alignas(32) float decoded_m[Wavefront::kRows];
+  alignas(32) float decoded_m[Wavefront::kRows];  // in the end what later cells see of it
   alignas(32) std::int32_t coded_steps[Wavefront::kRows];
 
   CodedRanges(int columns, const RangeQuantiser& quantiser)

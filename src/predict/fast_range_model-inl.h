@@ -112,12 +112,13 @@ class FastRangeModel {
     return coded_.take(cell, decoded_m, from_blend);
   }
 
-  // What the eight decode to; 0 where there is no return.
+  // What later cells see of the eight; 0 where there is no return.
   POINTREEL_INLINE Float8 decoded_m() const { return load<8>(coded_.decoded_m); }
 
   // After the last of the eight: remembers them.
   HWY_NOINLINE void remember(int step) {
-    coded_.lean_to_prediction(0.45F, 0.3F, squared_error_);
+    constexpr float kLeanBeside = 0.45F, kLeanBeyond = 0.3F;
+    coded_.lean_to_prediction(kLeanBeside, kLeanBeyond, squared_error_);
     coded_.remember(step, lines_);
   }
 

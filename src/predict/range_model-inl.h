@@ -3,7 +3,7 @@
 //   propose -> weigh by recent errors -> mix -> code the bin -> reconstruct -> learn      (eight cells at a
 //   time)
 //
-// The reconstruction feeds all later predictions, so encoder and decoder see the same.
+// What later predictions see follows from the reconstruction, so encoder and decoder see the same.
 
 #if defined(POINTREEL_PREDICT_RANGE_MODEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef POINTREEL_PREDICT_RANGE_MODEL_INL_H_
@@ -37,7 +37,7 @@ class RangeModel {
       : columns_(columns),
         ingredients_(setting.ingredients),
         coded_(columns, setting.quantiser),
-        lean_(std::min(0.3F, 0.015F / coded_.step_m)),
+        lean_(std::min(kMostLean, kNoiseM / coded_.step_m)),
         state_(state) {}
 
   // `lattice_phase_m`: per row, where its lattice has a point.
@@ -133,9 +133,11 @@ class RangeModel {
   // After the last of the eight: remembers them.
   POINTREEL_INLINE void remember(int step) {
     if constexpr (kPredicted) {
+      // Before they lean towards what it corrects.
       if (coded_.proposed) bias_.add(decoded_m(), reference_m_);
     }
-    if constexpr (!has_trust(kKind)) coded_.lean_to_prediction(lean_, 0.4F * lean_, blended_.squared_error);
+    if constexpr (!has_trust(kKind))
+      coded_.lean_to_prediction(lean_, kLeanBeyond * lean_, blended_.squared_error);
     if constexpr (has_row_lines(kKind)) {
       coded_.remember(step, lines_);
     } else {
@@ -164,8 +166,10 @@ class RangeModel {
   int columns_;
   Ingredients ingredients_;
   CodedRanges<kExperts> coded_;
-  float lean_;  // of a step, as far as noise goes at most: in coarse steps it would follow the prediction's
-                // own errors
+  // Of a step: as far as noise goes at most. In coarse steps leaning would follow the prediction's own
+  // errors.
+  static constexpr float kMostLean = 0.3F, kNoiseM = 0.015F, kLeanBeyond = 0.4F;
+  float lean_;
   RowLines lines_;
   ReferenceBias bias_ = ReferenceBias(coded_.step_m);
   BandState& state_;
