@@ -86,11 +86,12 @@ struct CodedRanges {
     constexpr float kPerSquaredStep = 0.5F;
     if (!proposed || on_lattice) return;
     const Float8 range_m = load<8>(decoded_m);
-    const Int8 one = all_ints<8>(1), minus_one = all_ints<8>(-1);
     const Int8 steps_away = load_ints<8>(coded_steps);
-    const Int8 first = larger(smaller(steps_away, one), minus_one);
-    const Int8 next = larger(smaller(steps_away - first, one), minus_one);
-    const Float8 by_m = (beside * step_m) * as_floats(first) + ((beyond - beside) * step_m) * as_floats(next);
+    const Int8 first = larger(smaller(steps_away, all_ints<8>(1)), all_ints<8>(-1));
+    static_assert(kMostContextSteps == 2, "one step beyond the first at most");
+    const Int8 second = steps_away - first;
+    const Float8 by_m =
+        (beside * step_m) * as_floats(first) + ((beyond - beside) * step_m) * as_floats(second);
     const Float8 leant_m = range_m - by_m / (all<8>(1) + kPerSquaredStep * squared_error);
     store(where(seen(range_m), larger(leant_m, all<8>(kSmallestRangeM))), decoded_m);
   }

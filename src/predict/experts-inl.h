@@ -75,9 +75,6 @@ struct Proposals {
   POINTREEL_INLINE Proposals() {}
 };
 
-POINTREEL_INLINE Mask<8> seen(const Float8& range_m) {
-  return all<8>(kSmallestRangeM) <= range_m;
-}
 POINTREEL_INLINE Float8 inverted(const Float8& inverse_range) {
   const Float8 least = all<8>(1e-6F);
   return where(least <= inverse_range, all<8>(1) / larger(inverse_range, least));
@@ -169,9 +166,8 @@ POINTREEL_INLINE Float8 mean_difference(const Neighbourhood& cells, const Refere
   const auto add = [&](int column, int row) HWY_ATTR {
     const Float8 coded_m = cells.range_m(column, row);
     const Float8 reference_m = reference.range_m(column, row);
-    const Float8 difference = coded_m - reference_m;
-    const Mask<8> same = (absolute(difference) <= all<8>(kSameSurfaceM)) & seen(coded_m) & seen(reference_m);
-    sum = sum + where(same, difference);
+    const Mask<8> same = same_surface(coded_m, reference_m, kSameSurfaceM);
+    sum = sum + where(same, coded_m - reference_m);
     count = count + where(same, all<8>(1));
   };
   for (int column = -4; column < 0; ++column) add(column, 0);

@@ -44,7 +44,7 @@ struct HitMaskPlanes {
     const Int8 code =
         larger(smaller(shifted_right<12>(bits_of(range_m)) - all_ints<8>(kLowest), all_ints<8>(0x7FFF)),
                all_ints<8>(1));
-    const Int8 range = where(as_int_mask(all<8>(kSmallestRangeM) <= range_m), code);
+    const Int8 range = where(as_int_mask(seen(range_m)), code);
     store(range, log_range.at(step));
     store(select(range > all_ints<8>(0), range, load_ints<8>(column_range.at(step, 0, -1))),
           column_range.at(step));

@@ -33,7 +33,7 @@ struct Similarity {
   POINTREEL_INLINE explicit Similarity(const Float8& reference)
       : reference_m(reference), tolerance_m(0.03F * reference + all<8>(0.3F)) {}
   POINTREEL_INLINE Mask<8> operator()(const Float8& range_m) const {
-    return (absolute(range_m - reference_m) <= tolerance_m) & (all<8>(kSmallestRangeM) <= range_m);
+    return (absolute(range_m - reference_m) <= tolerance_m) & seen(range_m);
   }
 };
 
@@ -115,7 +115,7 @@ HWY_NOINLINE inline LocalFits fit_locally(const Neighbourhood& cells, const Floa
         (here.wu * wxx - here.wxu * here.wx) / larger(determinant, all<8>(kSmallestDeterminant));
     fits.line = where(all<8>(kSmallestDeterminant) <= determinant, value + inverse_reference);
   }
-  const Mask<8> has_parallel = (all<8>(kSmallestRangeM) <= above_m) & (all<8>(1e-3F) <= parallel_weight);
+  const Mask<8> has_parallel = seen(above_m) & (all<8>(1e-3F) <= parallel_weight);
   fits.parallel = where(has_parallel,
                         cells.inverse_range(0, -1) + parallel_step / larger(parallel_weight, all<8>(1e-3F)));
   return fits;

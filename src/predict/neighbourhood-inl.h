@@ -16,6 +16,14 @@ namespace HWY_NAMESPACE {
 
 inline constexpr float kSmallestRangeM = 1e-3F;  // of a return
 
+POINTREEL_INLINE Mask<8> seen(const Float8& range_m) {
+  return all<8>(kSmallestRangeM) <= range_m;
+}
+// Both seen, and no farther apart.
+POINTREEL_INLINE Mask<8> same_surface(const Float8& range_m, const Float8& other_m, float most_m) {
+  return (absolute(range_m - other_m) <= all<8>(most_m)) & seen(range_m) & seen(other_m);
+}
+
 // Ranges as far as they are coded; 0 where there is no return.
 struct RangePlanes {
   SkewedPlane<float> range_m, inverse_range;

@@ -7,7 +7,7 @@
 #define POINTREEL_PREDICT_REFERENCE_BIAS_INL_H_
 #endif
 
-#include "base/lanes-inl.h"
+#include "predict/neighbourhood-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pointreel {
@@ -23,15 +23,13 @@ class ReferenceBias {
 
   // `range_m`: of the reference; 0, nothing is known, stays.
   POINTREEL_INLINE Float8 corrected(const Float8& range_m) const {
-    return where(all<8>(kSmallestRangeM) <= range_m, range_m + mean_m_);
+    return where(seen(range_m), range_m + mean_m_);
   }
 
   // The next cells; range 0: no return.
   POINTREEL_INLINE void add(const Float8& range_m, const Float8& reference_m) {
-    const Float8 difference = range_m - reference_m;
-    const Mask<8> same = (absolute(difference) <= all<8>(kSameSurfaceM)) &
-                         (all<8>(kSmallestRangeM) <= range_m) & (all<8>(kSmallestRangeM) <= reference_m);
-    mean_m_ = mean_m_ + where(same, rate_ * (difference - mean_m_));
+    const Mask<8> same = same_surface(range_m, reference_m, kSameSurfaceM);
+    mean_m_ = mean_m_ + where(same, rate_ * (range_m - reference_m - mean_m_));
   }
 
  private:

@@ -35,10 +35,9 @@ class RowMemory {
 
   // The next cells; range 0: no return.
   POINTREEL_INLINE void add(const Float8& range_m) {
-    const Mask<8> hit = all<8>(kSmallestRangeM) <= range_m;
+    const Mask<8> hit = seen(range_m);
     const Float8 last = last_m();
-    const Mask<8> edge = hit & (all<8>(kSmallestRangeM) <= last) &
-                         (all<8>(kEdgeM) + kEdgeShare * last <= absolute(range_m - last));
+    const Mask<8> edge = hit & seen(last) & (all<8>(kEdgeM) + kEdgeShare * last <= absolute(range_m - last));
     earlier_edge_m_ = select(edge, edge_m_, earlier_edge_m_);
     edge_m_ = select(edge, last, edge_m_);
     before_last_m_ = select(hit, last_m_, before_last_m_);

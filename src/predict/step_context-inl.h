@@ -46,8 +46,8 @@ class StepContexts {
     const Int8 around = near + near + absolute(above_right) + absolute(left2) + absolute(above_left);
     store(smaller(around, all_ints<8>(static_cast<std::int32_t>(StepModels::kActivities) - 1)), activity_);
     const Int8 one = all_ints<8>(1);
-    const Int8 has_left = where(as_int_mask(all<8>(kSmallestRangeM) <= cells.range_m(-1)), one);
-    const Int8 has_above = where(as_int_mask(all<8>(kSmallestRangeM) <= cells.range_m(0, -1)), one);
+    const Int8 has_left = where(as_int_mask(seen(cells.range_m(-1))), one);
+    const Int8 has_above = where(as_int_mask(seen(cells.range_m(0, -1))), one);
     store(has_left + has_above + has_above, availability_);
   }
 

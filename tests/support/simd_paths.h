@@ -10,7 +10,7 @@ namespace pointreel {
 // Calls run(name of the instruction set) with the library confined to it.
 template <class Run>
 void for_each_simd_path(const Run& run) {
-#if defined(HWY_COMPILE_ONLY_STATIC) || defined(HWY_COMPILE_ONLY_SCALAR) || defined(HWY_COMPILE_ONLY_EMU128)
+#if defined(HWY_COMPILE_ONLY_STATIC) || defined(HWY_COMPILE_ONLY_SCALAR)
   run(hwy::TargetName(HWY_STATIC_TARGET));
 #else
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
