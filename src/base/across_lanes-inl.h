@@ -58,6 +58,10 @@ template <std::size_t N>
 POINTREEL_INLINE float largest(const Floats<N>& a) {
   return combine(a, [](auto x, auto y) HWY_ATTR { return hn::Max(x, y); });
 }
+template <std::size_t N>
+POINTREEL_INLINE float smallest(const Floats<N>& a) {
+  return combine(a, [](auto x, auto y) HWY_ATTR { return hn::Min(x, y); });
+}
 // The first lane that equals x, which one does.
 template <std::size_t N>
 POINTREEL_INLINE std::size_t first_lane_with(const Floats<N>& a, float x) {
