@@ -173,6 +173,34 @@ POINTREEL_INLINE IntMask<N> as_int_mask(const Mask<N>& mask) {
                               HWY_ATTR { return hn::RebindMask(typename Ints<N>::Tag(), mask.part[i]); });
 }
 
+// Each lane moves up by one; the first becomes `first`.
+template <std::size_t N>
+POINTREEL_INLINE Ints<N> moved_up(const Ints<N>& a, std::int32_t first) {
+  const typename Ints<N>::Tag tag;
+  auto before = hn::Set(tag, first);
+  return each_int<N>([&](std::size_t i) HWY_ATTR {
+#if HWY_TARGET == HWY_SCALAR
+    const auto moved = before;
+#else
+    if constexpr (Ints<N>::kPartLanes == 8) before = hn::ConcatLowerUpper(tag, a.part[i], before);
+    const auto moved = hn::CombineShiftRightBytes<12>(tag, a.part[i], before);
+#endif
+    before = a.part[i];
+    return moved;
+  });
+}
+// Eight lanes of bits, the first in bit 0.
+POINTREEL_INLINE Int8 bits_by_lane(std::uint32_t bits) {
+  static constexpr std::int32_t kBits[8] = {1, 2, 4, 8, 16, 32, 64, 128};
+  return where((all_ints<8>(static_cast<std::int32_t>(bits)) & load_ints<8>(kBits)) > all_ints<8>(0),
+               all_ints<8>(1));
+}
+// The first eight lanes but one are false.
+POINTREEL_INLINE IntMask<8> only_lane(std::size_t lane) {
+  static constexpr std::int32_t kLanes[15] = {0, 0, 0, 0, 0, 0, 0, 1};
+  return load_ints<8>(kLanes + 7 - lane) > all_ints<8>(0);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace pointreel
 HWY_AFTER_NAMESPACE();

@@ -39,7 +39,7 @@ inline void find_bins(std::size_t count, const float* x_m, const float* y_m, con
 POINTREEL_INLINE std::int32_t nearest_tile(const PlanesByDirection::Tiles& tiles, std::int32_t bin,
                                            const PatchBlock& block, std::size_t patch, float most_m2) {
   constexpr float kSameDirection = 0.97F;
-  constexpr std::int32_t kLanes[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+  static constexpr std::int32_t kLanes[8] = {0, 1, 2, 3, 4, 5, 6, 7};
   const Float8 x_m = all<8>(block.x_m[patch]), y_m = all<8>(block.y_m[patch]), z_m = all<8>(block.z_m[patch]);
   const Float8 normal_x = all<8>(block.normal_x[patch]), normal_y = all<8>(block.normal_y[patch]),
                normal_z = all<8>(block.normal_z[patch]);

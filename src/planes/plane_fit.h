@@ -39,39 +39,42 @@ class PlaneMoments {
   Plane fit() const;
 
  private:
-  template <std::size_t kLanes>
   friend class PlaneMomentLanes;
 
   double xx_ = 0, xy_ = 0, xz_ = 0, yy_ = 0, yz_ = 0, zz_ = 0;
   double x_ = 0, y_ = 0, z_ = 0;
 };
 
-// The same for points in the sensor's coordinates, summed in lanes: loops over them become SIMD code.
-template <std::size_t kLanes>
+// The same for points in the sensor's coordinates, summed in eight lanes: loops over them become SIMD code.
 class PlaneMomentLanes {
  public:
-  // `counts`: 1 or 0.
+  static constexpr std::size_t kLanes = 8;
+  enum class First : bool { no, yes };
+
+  // Each lane starts with a first point. `counts`: 1 or 0.
+  template <First kFirst>
   void add(std::size_t lane, double x_m, double y_m, double z_m, double counts) {
     const double r2 = counts * (x_m * x_m + y_m * y_m + z_m * z_m);
     const double wx = r2 * x_m, wy = r2 * y_m, wz = r2 * z_m;
-    xx_[lane] += wx * x_m, xy_[lane] += wx * y_m, xz_[lane] += wx * z_m;
-    yy_[lane] += wy * y_m, yz_[lane] += wy * z_m, zz_[lane] += wz * z_m;
-    x_[lane] += wx, y_[lane] += wy, z_[lane] += wz;
+    const double terms[kSums] = {wx * x_m, wx * y_m, wx * z_m, wy * y_m, wy * z_m, wz * z_m, wx, wy, wz};
+    for (std::size_t i = 0; i < kSums; ++i)
+      sums_[i][lane] = kFirst == First::yes ? terms[i] : sums_[i][lane] + terms[i];
   }
   PlaneMoments total() const {
-    PlaneMoments sums;
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      sums.xx_ += xx_[lane], sums.xy_ += xy_[lane], sums.xz_ += xz_[lane];
-      sums.yy_ += yy_[lane], sums.yz_ += yz_[lane], sums.zz_ += zz_[lane];
-      sums.x_ += x_[lane], sums.y_ += y_[lane], sums.z_ += z_[lane];
+    PlaneMoments moments;
+    double* const to[kSums] = {&moments.xx_, &moments.xy_, &moments.xz_, &moments.yy_, &moments.yz_,
+                               &moments.zz_, &moments.x_,  &moments.y_,  &moments.z_};
+    for (std::size_t i = 0; i < kSums; ++i) {
+      const auto& lanes = sums_[i];
+      *to[i] =
+          ((lanes[0] + lanes[4]) + (lanes[2] + lanes[6])) + ((lanes[1] + lanes[5]) + (lanes[3] + lanes[7]));
     }
-    return sums;
+    return moments;
   }
 
  private:
-  using Lanes = std::array<double, kLanes>;
-  Lanes xx_{}, xy_{}, xz_{}, yy_{}, yz_{}, zz_{};
-  Lanes x_{}, y_{}, z_{};
+  static constexpr std::size_t kSums = 9;
+  std::array<std::array<double, kLanes>, kSums> sums_;
 };
 
 }  // namespace pointreel

@@ -69,21 +69,30 @@ struct TileSamples::Loops {
   }
 
   POINTREEL_SIMD_LOOPS static PlaneMoments sum(const TileSamples& samples, int tile_row, int tile) {
-    PlaneMomentLanes<kTileColumns> sums;
-    for (int row = TileGrid::first_row(tile_row); row < samples.tiles_.end_row(tile_row); ++row) {
-      const SensorRays::Row r = samples.rays_.row(row);
-      const float* rhos_m = &samples.rho_m_[samples.first_cell(row, tile)];
-      const float* column_cosine = samples.rays_.cos_of_row(row) + tile * kTileColumns;
-      const float* column_sine = samples.rays_.sin_of_row(row) + tile * kTileColumns;
-      for (std::size_t c = 0; c < kTileColumns; ++c) {
-        const double rho_m = rhos_m[c], column_cos = column_cosine[c], column_sin = column_sine[c];
-        const double cosine = column_cos * r.cos_alpha - column_sin * r.sin_alpha;
-        const double sine = column_sin * r.cos_alpha + column_cos * r.sin_alpha;
-        sums.add(c, rho_m * cosine - r.side_offset_m * sine, rho_m * sine + r.side_offset_m * cosine,
-                 r.slope * rho_m + r.offset_m, rho_m > 0 ? 1.0 : 0.0);
-      }
-    }
+    using First = PlaneMomentLanes::First;
+    PlaneMomentLanes sums;
+    const int first_row = TileGrid::first_row(tile_row);
+    add_row<First::yes>(samples, first_row, tile, sums);
+    for (int row = first_row + 1; row < samples.tiles_.end_row(tile_row); ++row)
+      add_row<First::no>(samples, row, tile, sums);
     return sums.total();
+  }
+
+  template <PlaneMomentLanes::First kFirst>
+  __attribute__((always_inline)) static void add_row(const TileSamples& samples, int row, int tile,
+                                                     PlaneMomentLanes& sums) {
+    static_assert(PlaneMomentLanes::kLanes == kTileColumns);
+    const SensorRays::Row r = samples.rays_.row(row);
+    const float* rhos_m = &samples.rho_m_[samples.first_cell(row, tile)];
+    const float* column_cosine = samples.rays_.cos_of_row(row) + tile * kTileColumns;
+    const float* column_sine = samples.rays_.sin_of_row(row) + tile * kTileColumns;
+    for (std::size_t c = 0; c < kTileColumns; ++c) {
+      const double rho_m = rhos_m[c], column_cos = column_cosine[c], column_sin = column_sine[c];
+      const double cosine = column_cos * r.cos_alpha - column_sin * r.sin_alpha;
+      const double sine = column_sin * r.cos_alpha + column_cos * r.sin_alpha;
+      sums.add<kFirst>(c, rho_m * cosine - r.side_offset_m * sine, rho_m * sine + r.side_offset_m * cosine,
+                       r.slope * rho_m + r.offset_m, rho_m > 0 ? 1.0 : 0.0);
+    }
   }
 };
 

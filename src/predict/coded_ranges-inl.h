@@ -36,8 +36,8 @@ struct CodedRanges {
   // Of the eight cells at hand.
   Proposals<kExperts> proposals;
   bool proposed = false;
-  alignas(32) float decoded_m[Wavefront::kRows];  // in the end what later cells see of it
-  alignas(32) std::int32_t coded_steps[Wavefront::kRows];
+  Float8 decoded_m;  // in the end what later cells see of it
+  Int8 coded_steps;
 
   CodedRanges(int columns, const RangeQuantiser& quantiser)
       : step_m(quantiser.step_m),
@@ -61,8 +61,8 @@ struct CodedRanges {
   // Eight cells without returns so far.
   POINTREEL_INLINE void start_step() {
     proposed = false;
-    store(all<8>(0), decoded_m);
-    store(all_ints<8>(0), coded_steps);
+    decoded_m = all<8>(0);
+    coded_steps = all_ints<8>(0);
   }
 
   // Where the bins around a proposal of the cell have their origin.
@@ -72,11 +72,18 @@ struct CodedRanges {
 
   // What a cell decodes to, and the steps that its neighbours' contexts see.
   POINTREEL_INLINE float take(std::size_t cell, float range_m, std::int32_t steps_from_prediction) {
-    decoded_m[cell] = range_m > kSmallestRangeM ? range_m : kSmallestRangeM;
-    coded_steps[cell] = steps_from_prediction < -kMostContextSteps  ? -kMostContextSteps
-                        : steps_from_prediction > kMostContextSteps ? kMostContextSteps
-                                                                    : steps_from_prediction;
-    return decoded_m[cell];
+    const IntMask<8> lane = only_lane(cell);
+    coded_steps = select(lane,
+                         all_ints<8>(steps_from_prediction < -kMostContextSteps  ? -kMostContextSteps
+                                     : steps_from_prediction > kMostContextSteps ? kMostContextSteps
+                                                                                 : steps_from_prediction),
+                         coded_steps);
+    return set_decoded(cell, range_m > kSmallestRangeM ? range_m : kSmallestRangeM);
+  }
+  // (Lane by lane in memory, whoever loads the eight would wait until all are written.)
+  POINTREEL_INLINE float set_decoded(std::size_t cell, float range_m) {
+    decoded_m = select(as_float_mask(only_lane(cell)), all<8>(range_m), decoded_m);
+    return range_m;
   }
 
   // Later cells see ranges where in their bins they are likely to be: nearer to the prediction, by a share
@@ -85,24 +92,23 @@ struct CodedRanges {
   POINTREEL_INLINE void lean_to_prediction(float beside, float beyond, const Float8& squared_error) {
     constexpr float kPerSquaredStep = 0.5F;
     if (!proposed || on_lattice) return;
-    const Float8 range_m = load<8>(decoded_m);
-    const Int8 steps_away = load_ints<8>(coded_steps);
-    const Int8 first = larger(smaller(steps_away, all_ints<8>(1)), all_ints<8>(-1));
+    const Float8 range_m = decoded_m;
+    const Int8 first = larger(smaller(coded_steps, all_ints<8>(1)), all_ints<8>(-1));
     static_assert(kMostContextSteps == 2, "one step beyond the first at most");
-    const Int8 second = steps_away - first;
+    const Int8 second = coded_steps - first;
     const Float8 by_m =
         (beside * step_m) * as_floats(first) + ((beyond - beside) * step_m) * as_floats(second);
     const Float8 leant_m = range_m - by_m / (all<8>(1) + kPerSquaredStep * squared_error);
-    store(where(seen(range_m), larger(leant_m, all<8>(kSmallestRangeM))), decoded_m);
+    decoded_m = where(seen(range_m), larger(leant_m, all<8>(kSmallestRangeM)));
   }
 
   // After the last of the eight. Returns 1 / range; 0 where there is no return.
   POINTREEL_INLINE Float8 remember(int step) {
-    const Float8 range_m = load<8>(decoded_m);
+    const Float8 range_m = decoded_m;
     const Float8 inverse = where(seen(range_m), all<8>(1) / larger(range_m, all<8>(kSmallestRangeM)));
     store(range_m, planes.range_m.at(step));
     store(inverse, planes.inverse_range.at(step));
-    store(load_ints<8>(coded_steps), steps.at(step));
+    store(coded_steps, steps.at(step));
     remember_errors(proposals, range_m, proposed, step_m, step, errors, row_errors);
     memory.add(range_m);
     return inverse;
@@ -111,7 +117,7 @@ struct CodedRanges {
   POINTREEL_INLINE void remember(int step, RowLines& lines) {
     const Float8 last_m = memory.last_m();
     const Float8 inverse = remember(step);
-    lines.add(load<8>(decoded_m), inverse, last_m, Neighbourhood(planes, step).inverse_range(0, -1));
+    lines.add(decoded_m, inverse, last_m, Neighbourhood(planes, step).inverse_range(0, -1));
   }
 };
 

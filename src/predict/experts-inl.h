@@ -67,7 +67,7 @@ inline constexpr std::array<ExpertTriple, StepModels::kPlaces> kKeyTriples = {
 inline constexpr std::array<ExpertTriple, StepModels::kPlaces> kPredictedTriples = {
     {{kReferenceHere, kLeft, kAbove}, {kPlane, kReferenceMean, kReferenceRight}}};
 
-// Eight cells' proposals, a range per expert.
+// Eight cells' proposals, a range per expert. Written in place: to copy them takes as long as to make some.
 template <std::size_t kExperts>
 struct Proposals {
   Float8 range_m[kExperts];
@@ -140,10 +140,9 @@ POINTREEL_INLINE void propose_row_lines(const Neighbourhood& cells, const RowLin
   range_m[kRowParallel] = around.if_likely(inverted(lines.parallel(cells.inverse_range(0, -1))));
 }
 
-HWY_NOINLINE inline Proposals<kMostExperts> propose_for_key_frame(const Neighbourhood& cells,
-                                                                  const RowMemory& memory) {
+HWY_NOINLINE inline void propose_for_key_frame(const Neighbourhood& cells, const RowMemory& memory,
+                                               Proposals<kMostExperts>& proposals) {
   const Surroundings around(cells, memory, all<8>(0));
-  Proposals<kMostExperts> proposals;
   Float8* range_m = proposals.range_m;
   propose_from_around(memory, around, range_m);
   propose_fits(cells, around, range_m);
@@ -156,7 +155,6 @@ HWY_NOINLINE inline Proposals<kMostExperts> propose_for_key_frame(const Neighbou
   range_m[kKeyLeft3] = around.or_start(cells.range_m(-3));
   range_m[kKeyMeanLeft] = around.mean_left();
   range_m[kKeyEarlierEdge] = around.or_start(memory.earlier_edge_m());
-  return proposals;
 }
 
 // Mean difference of what is coded around a cell to the reference, where the two show the same surface.
@@ -177,17 +175,15 @@ POINTREEL_INLINE Float8 mean_difference(const Neighbourhood& cells, const Refere
 
 // `lines`: only looked at by a kind that has them.
 template <CodingKind kKind>
-HWY_NOINLINE Proposals<experts_of(kKind)> propose_for_predicted_frame(const Neighbourhood& cells,
-                                                                      const RowMemory& memory,
-                                                                      const RowLines& lines,
-                                                                      const ReferenceView& reference,
-                                                                      const ReferenceBias& bias) {
+HWY_NOINLINE void propose_for_predicted_frame(const Neighbourhood& cells, const RowMemory& memory,
+                                              const RowLines& lines, const ReferenceView& reference,
+                                              const ReferenceBias& bias,
+                                              Proposals<experts_of(kKind)>& proposals) {
   const Float8 here = reference.range_m(0);
   const Float8 west = reference.range_m(-1), east = reference.range_m(1);
   const Surroundings around(cells, memory, here);
   const Float8 shift = mean_difference(cells, reference);
   constexpr float kSmoothM = 0.3F;
-  Proposals<experts_of(kKind)> proposals;
   Float8* range_m = proposals.range_m;
   propose_from_around(memory, around, range_m);
   if constexpr (has_row_lines(kKind)) {
@@ -216,7 +212,6 @@ HWY_NOINLINE Proposals<experts_of(kKind)> propose_for_predicted_frame(const Neig
     }
     range_m[kReferenceMean] = around.or_start(where(seen(here), sum / count + shift));
   }
-  return proposals;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -16,9 +16,8 @@ namespace HWY_NAMESPACE {
 
 inline constexpr std::size_t kFastExperts = 9;  // lane 0 is left for the blend
 
-POINTREEL_INLINE Proposals<kFastExperts> propose_fast(const Neighbourhood& cells, const RowMemory& memory,
-                                                      const RowLines& lines, const Surroundings& around) {
-  Proposals<kFastExperts> proposals;
+POINTREEL_INLINE void propose_fast(const Neighbourhood& cells, const RowMemory& memory, const RowLines& lines,
+                                   const Surroundings& around, Proposals<kFastExperts>& proposals) {
   Float8* range_m = proposals.range_m;
   range_m[0] = around.start;
   range_m[1] = around.if_likely(inverted(lines.line()));
@@ -29,7 +28,6 @@ POINTREEL_INLINE Proposals<kFastExperts> propose_fast(const Neighbourhood& cells
   range_m[6] = around.or_start(around.above);
   range_m[7] = around.or_start(around.above_right);
   range_m[8] = around.or_start(memory.edge_m());
-  return proposals;
 }
 
 }  // namespace HWY_NAMESPACE

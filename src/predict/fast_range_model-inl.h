@@ -53,7 +53,7 @@ class FastRangeModel {
   HWY_NOINLINE void predict(int step, const ReferencePlanes* /*none*/) {
     const Neighbourhood cells(coded_.planes, step);
     const Surroundings around(cells, coded_.memory, all<8>(0));
-    coded_.proposals = propose_fast(cells, coded_.memory, lines_, around);
+    propose_fast(cells, coded_.memory, lines_, around, coded_.proposals);
     Float8 precision[kFastExperts];
     const Blend blend = weigh<kFastExperts>(coded_.errors, coded_.row_errors, cells, step, coded_.step_m,
                                             coded_.proposals, precision);
@@ -77,7 +77,7 @@ class FastRangeModel {
 
   // One of them holds a return whose range both sides know.
   POINTREEL_INLINE float take_known(std::size_t cell, float range_m) {
-    return coded_.decoded_m[cell] = range_m;
+    return coded_.set_decoded(cell, range_m);
   }
 
   // (Nothing of one cell waits for another.)
@@ -113,7 +113,7 @@ class FastRangeModel {
   }
 
   // What later cells see of the eight; 0 where there is no return.
-  POINTREEL_INLINE Float8 decoded_m() const { return load<8>(coded_.decoded_m); }
+  POINTREEL_INLINE const Float8& decoded_m() const { return coded_.decoded_m; }
 
   // After the last of the eight: remembers them.
   HWY_NOINLINE void remember(int step) {

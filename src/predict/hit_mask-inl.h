@@ -29,9 +29,7 @@ class HitMaskModel {
   }
 
   // Eight cells; outside the image hits are the better guess.
-  POINTREEL_INLINE void start_step() {
-    for (std::int32_t& hit : hits_) hit = 1;
-  }
+  POINTREEL_INLINE void start_step() { hits_ = (1U << Wavefront::kRows) - 1; }
 
   // The eight are coded at once where each of them is sure to be a hit, all but once in a while. True when
   // they are hits; otherwise each has to be coded.
@@ -67,13 +65,13 @@ class HitMaskModel {
     }
     float move = 0;
     hit = code_sum(coder, 0, terms, kRate, hit, move);
-    hits_[cell] = hit ? 1 : 0;
+    remember_hit(cell, hit);
     return hit;
   }
 
   // After the last of the eight: remembers them and their decoded ranges, 0 where there is none.
   POINTREEL_INLINE void remember(int step, const Float8& range_m) {
-    planes_.remember(step, load_ints<8>(hits_), range_m);
+    planes_.remember(step, bits_by_lane(hits_), range_m);
     const Int8 range = load_ints<8>(planes_.log_range.at(step));
     row_range_ = select(range > all_ints<8>(0), range, row_range_);
   }
@@ -84,9 +82,10 @@ class HitMaskModel {
   POINTREEL_INLINE bool code_sure(Coder& coder, std::size_t cell, bool hit) {
     hit = code_counted(
         coder, state_.sure[static_cast<std::size_t>(contexts_.slot[HitMaskState::kEdges][cell])], hit);
-    hits_[cell] = hit ? 1 : 0;
+    remember_hit(cell, hit);
     return hit;
   }
+  POINTREEL_INLINE void remember_hit(std::size_t cell, bool hit) { hits_ &= ~((hit ? 0U : 1U) << cell); }
 
   HitMaskPlanes planes_;
   HitMaskState& state_;
@@ -94,7 +93,7 @@ class HitMaskModel {
 
   // Of the eight cells at hand.
   HitMaskContexts contexts_;
-  alignas(32) std::int32_t hits_[Wavefront::kRows];
+  std::uint32_t hits_;  // a bit each
 };
 
 }  // namespace HWY_NAMESPACE

@@ -30,6 +30,19 @@ struct HitMaskPlanes {
   explicit HitMaskPlanes(int columns)
       : pattern(columns, -1), log_range(columns), column_range(columns), column_history(columns, 0xFF) {}
 
+  // The pattern of the row above up to kAhead columns to the right, bit kAhead: the cell above. Most of it is
+  // the last step's, which is not loaded in other lanes than it was stored in: the processor would wait for
+  // the store.
+  static constexpr int kAhead = Wavefront::kLag - 1;
+  POINTREEL_INLINE Int8 pattern_above(int step) const {
+    return moved_up(load_ints<8>(pattern.at(step, -1)), *pattern.at(step, kAhead, -1));
+  }
+  // The same of two rows above, up to kAhead2 columns to the right.
+  static constexpr int kAhead2 = 2 * Wavefront::kLag - 1;
+  POINTREEL_INLINE Int8 pattern_above2(int step) const {
+    return moved_up(pattern_above(step), *pattern.at(step, kAhead2, -2));
+  }
+
   void start_next_block() {
     pattern.start_next_block();
     log_range.start_next_block();
@@ -114,21 +127,16 @@ class HitMaskContexts {
   // there is none.
   POINTREEL_INLINE static bool are_sure(const HitMaskPlanes& planes, const ReferencePlanes* reference,
                                         int step) {
-    Int8 sure = amid_hits(load_ints<8>(planes.pattern.at(step, -1)),
-                          load_ints<8>(planes.pattern.at(step, kAhead, -1)));
+    Int8 sure = amid_hits(load_ints<8>(planes.pattern.at(step, -1)), planes.pattern_above(step));
     if (reference != nullptr) sure = sure & warped(ReferenceView(*reference, step).hits(0));
-    alignas(32) std::int32_t is_sure[Wavefront::kRows];
-    store(sure, is_sure);
-    std::int32_t all = 1;
-    for (const std::int32_t cell : is_sure) all &= cell;
-    return all != 0;
+    return !any(as_float_mask(all_ints<8>(1) > sure));
   }
 
   HWY_NOINLINE void find(const HitMaskPlanes& planes, const Int8& row_range, int step) {
     const Int8 one = all_ints<8>(1);
     const Int8 here = load_ints<8>(planes.pattern.at(step, -1));
-    const Int8 above = load_ints<8>(planes.pattern.at(step, kAhead, -1));    // bit kAhead: the cell above
-    const Int8 above2 = load_ints<8>(planes.pattern.at(step, kAhead2, -2));  // bit kAhead2
+    const Int8 above = planes.pattern_above(step);    // bit kAhead: the cell above
+    const Int8 above2 = planes.pattern_above2(step);  // bit kAhead2
     const Int8 west = here & one;
     const Int8 north = shifted_right<kAhead>(above) & one;
     const Int8 north_east = shifted_right<kAhead - 1>(above) & one;
@@ -163,7 +171,7 @@ class HitMaskContexts {
   HWY_NOINLINE void find_reference(const HitMaskPlanes& planes, const ReferenceView& reference, int step) {
     const Int8 one = all_ints<8>(1);
     const Int8 coded = load_ints<8>(planes.pattern.at(step, -1));
-    const Int8 coded_above = load_ints<8>(planes.pattern.at(step, kAhead, -1));
+    const Int8 coded_above = planes.pattern_above(step);
     const Int8 here = reference.hits(0), west = reference.hits(-1), east = reference.hits(1);
     const auto previous = [&](const Int8& hits) HWY_ATTR { return shifted_right<2>(hits) & one; };
     static_assert(kPreviousHit == 1 << 2);
@@ -219,7 +227,7 @@ class HitMaskContexts {
   }
 
   // Windows of cells above: columns from -8 to kAhead and kAhead2 to the right.
-  static constexpr int kAhead = Wavefront::kLag - 1, kAhead2 = 2 * Wavefront::kLag - 1;
+  static constexpr int kAhead = HitMaskPlanes::kAhead, kAhead2 = HitMaskPlanes::kAhead2;
   static constexpr int kWindow = 9 + kAhead, kWindow2 = 9 + kAhead2;
   static constexpr std::int32_t kWindowBits = (1 << kWindow) - 1, kWindow2Bits = (1 << kWindow2) - 1;
 

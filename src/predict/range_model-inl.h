@@ -57,9 +57,9 @@ class RangeModel {
     if constexpr (kPredicted) {
       const ReferenceView view(*reference, step);
       reference_m_ = view.range_m(0);
-      coded_.proposals = propose_for_predicted_frame<kKind>(cells, coded_.memory, lines_, view, bias_);
+      propose_for_predicted_frame<kKind>(cells, coded_.memory, lines_, view, bias_, coded_.proposals);
     } else {
-      coded_.proposals = propose_for_key_frame(cells, coded_.memory);
+      propose_for_key_frame(cells, coded_.memory, coded_.proposals);
     }
     if (ingredients_.experts_off != 0) leave_out_experts();
     blend<kExperts, kMixed>(coded_.errors, coded_.row_errors, cells, step, coded_.step_m, coded_.proposals,
@@ -74,7 +74,7 @@ class RangeModel {
 
   // One of them holds a return whose range both sides know.
   POINTREEL_INLINE float take_known(std::size_t cell, float range_m) {
-    return coded_.decoded_m[cell] = range_m;
+    return coded_.set_decoded(cell, range_m);
   }
 
   // Looks at one of them that holds a return: before any of them is coded. `row`: in the band.
@@ -110,25 +110,25 @@ class RangeModel {
                           wanted);
     }
     const float decoded_m = bins.origin_m() + static_cast<float>(steps) * coded_.step_m;
-    return coded_.take(cell, decoded_m, steps);
+    return reconstructed_m_[cell] = coded_.take(cell, decoded_m, steps);
   }
 
   // What it teaches the mixture, and what later cells see of it: after all of them are coded.
   POINTREEL_INLINE void learn(std::size_t cell) {
     const CellBins& bins = bins_[cell];
     if constexpr (has_trust(kKind)) {
-      const float likely_m = bins.mixture().learn(*bins.lower, *bins.upper, coded_.decoded_m[cell],
+      const float likely_m = bins.mixture().learn(*bins.lower, *bins.upper, reconstructed_m_[cell],
                                                   coded_.step_m, state_.trust.trusts);
       // On the lattice the reconstruction is exact.
       if (!coded_.on_lattice)
-        coded_.decoded_m[cell] = likely_m > kSmallestRangeM ? likely_m : kSmallestRangeM;
+        coded_.set_decoded(cell, likely_m > kSmallestRangeM ? likely_m : kSmallestRangeM);
     } else {
       bins.mixture().learn(*bins.lower, *bins.upper, ingredients_, state_.ranges.mixture);
     }
   }
 
   // What later cells see of the eight; 0 where there is no return.
-  POINTREEL_INLINE Float8 decoded_m() const { return load<8>(coded_.decoded_m); }
+  POINTREEL_INLINE const Float8& decoded_m() const { return coded_.decoded_m; }
 
   // After the last of the eight: remembers them.
   POINTREEL_INLINE void remember(int step) {
@@ -181,6 +181,7 @@ class RangeModel {
   StepContexts contexts_;
   std::size_t origin_[Wavefront::kRows];  // the expert around whose proposal the bins lie
   CellBins bins_[Wavefront::kRows];
+  float reconstructed_m_[Wavefront::kRows];
 };
 
 }  // namespace HWY_NAMESPACE
