@@ -23,7 +23,7 @@ class Search {
       for (int tile = 0; tile < tiles().across; ++tile) {
         std::int32_t* plane = &planes_.plane_of_tile[tiles().index(tile_row, tile)];
         *plane = known_plane(tile_row, tile);
-        if (*plane >= 0 || !samples_.has_returns(tile_row, tile)) continue;
+        if (*plane >= 0 || !may_begin(tile_row, tile)) continue;
         if (const auto found = plane_for(tile_row, tile)) {
           std::fill_n(plane, found->held, static_cast<std::int32_t>(planes_.planes.size()));
           planes_.planes.push_back(found->plane);
@@ -42,6 +42,12 @@ class Search {
   };
 
   const TileGrid& tiles() const { return planes_.tiles; }
+
+  // With fewer returns than half of the cells a plane would not be worth its bits.
+  bool may_begin(int tile_row, int tile) const {
+    const int cells = (tiles().end_row(tile_row) - TileGrid::first_row(tile_row)) * kTileColumns;
+    return 2 * samples_.returns(tile_row, tile) >= cells;
+  }
 
   // That of a neighbour which holds here, too; -1: none does.
   std::int32_t known_plane(int tile_row, int tile) const {

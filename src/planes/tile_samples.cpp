@@ -35,12 +35,13 @@ TileSamples::TileSamples(const PlaneTask& task)
   }
 }
 
-bool TileSamples::has_returns(int tile_row, int tile) const {
+int TileSamples::returns(int tile_row, int tile) const {
+  int returns = 0;
   for (int row = TileGrid::first_row(tile_row); row < tiles_.end_row(tile_row); ++row) {
     const float* rho_m = &rho_m_[first_cell(row, tile)];
-    if (std::any_of(rho_m, rho_m + kTileColumns, [](float rho) { return rho > 0; })) return true;
+    for (int column = 0; column < kTileColumns; ++column) returns += rho_m[column] > 0 ? 1 : 0;
   }
-  return false;
+  return returns;
 }
 
 static_assert(SensorRays::kColumnsMore >= kTileColumns, "the last tile may reach beyond the last column");

@@ -16,7 +16,7 @@ class TileSamples {
   explicit TileSamples(const PlaneTask& task);
 
   const TileGrid& tiles() const { return tiles_; }
-  bool has_returns(int tile_row, int tile) const;
+  int returns(int tile_row, int tile) const;
   // Of the returns of a tile, summed when first asked for.
   const PlaneMoments& moments(int tile_row, int tile);
 
