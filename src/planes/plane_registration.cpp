@@ -109,7 +109,7 @@ Result<PlaneRegistration> register_planes(const SweepPlanes& reference, const Sw
       support = support_of(found.T_ref_cur, planes, patches);
     }
   }
-  if (!found.converged || support.here < kLeastSupport || 10 * support.here < 13 * support.elsewhere) {
+  if (!found.converged || support.here < kLeastSupport || 2 * support.here < 3 * support.elsewhere) {
     return Error{ErrorCode::invalid_argument, "too few planes constrain the motion from frame " +
                                                   std::to_string(reference.frame) + " to " +
                                                   std::to_string(current.frame)};
