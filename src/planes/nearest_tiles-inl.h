@@ -77,13 +77,13 @@ inline void measure_to_planes(const PlanesByDirection::Tiles& tiles, PatchBlock&
     const Float8 x_m = load<8>(&block.x_m[i]), y_m = load<8>(&block.y_m[i]), z_m = load<8>(&block.z_m[i]);
     const Float8 most_m =
         kFarthestShare * square_root((x_m * x_m + y_m * y_m) + z_m * z_m) + all<8>(kFarthestM);
-    std::int32_t bins[8];
+    std::int32_t bins[8], nearest[8];
     float most_m2[8];
     store(bins_towards(x_m, y_m, z_m), bins);
     store(most_m * most_m, most_m2);
     for (std::size_t lane = 0; lane < 8; ++lane)
-      bins[lane] = nearest_tile(tiles, bins[lane], block, i + lane, most_m2[lane]);
-    const Int8 found = load_ints<8>(bins);
+      nearest[lane] = nearest_tile(tiles, bins[lane], block, i + lane, most_m2[lane]);
+    const Int8 found = load_ints<8>(nearest);
     const Int8 tile = larger(found, all_ints<8>(0));
     const Float8 normal_x = gather(tiles.normal_x.data(), tile),
                  normal_y = gather(tiles.normal_y.data(), tile),

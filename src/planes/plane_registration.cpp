@@ -6,7 +6,6 @@
 #include <numeric>
 #include <string>
 
-#include "base/trigonometry.h"
 #include "motion/patch_alignment.h"
 #include "planes/planes_by_direction.h"
 #include "pointreel/planes.h"
@@ -14,14 +13,15 @@
 namespace pointreel {
 namespace {
 
-// The ground, and eight directions of walls: finer than for the patches of points (motion/surface_patches.h),
-// as few tiles lie across the way, and each is wanted.
-constexpr std::size_t kTileFacings = 9;
+// Each of the four directions of walls in two, as few tiles lie across the way, and each is wanted.
+constexpr std::size_t kTileFacings = 2 * kFacings;
 std::size_t facing_of_tile(const Eigen::Vector3f& normal) {
-  constexpr float kLevel = 0.8F;
-  if (std::fabs(normal.z()) > kLevel) return 0;
-  const float turned = fast_atan2(normal.y(), normal.x()) + static_cast<float>(kPi);
-  return 1 + (static_cast<std::size_t>(turned * static_cast<float>(8 / kPi)) & 7);
+  constexpr float kTangent = 0.41421356F;  // of an eighth of a half turn
+  const float along_x = std::fabs(normal.x()), along_y = std::fabs(normal.y());
+  const int facing_of_patch = facing(normal);
+  const bool oblique =
+      facing_of_patch > 0 && std::min(along_x, along_y) > kTangent * std::max(along_x, along_y);
+  return static_cast<std::size_t>(2 * facing_of_patch + (oblique ? 1 : 0));
 }
 
 // Tiles spread over all directions they face.

@@ -17,8 +17,6 @@ namespace {
 HWY_EXPORT(find_bins);
 HWY_EXPORT(measure_to_planes);
 
-using Tiles = PlanesByDirection::Tiles;
-
 std::vector<std::int32_t> bins_of(const std::vector<PlaneTile>& tiles) {
   const std::size_t padded = tiles.size() + PlanesByDirection::kAtOnce;
   std::vector<float> x_m(padded), y_m(padded), z_m(padded);

@@ -1,7 +1,6 @@
 // PlanesByDirection: a sweep's planes as what patches of another sweep are registered against.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>

@@ -1,6 +1,5 @@
 #include "planes/tile_samples.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -10,22 +10,19 @@
 #include "pointreel/motion.h"
 #include "pointreel/planes.h"
 #include "support/clouds.h"
+#include "support/mixture_round_trip.h"
 
 namespace pointreel {
 namespace {
 
-std::vector<SweepPlanes> planes_of(const std::vector<std::filesystem::path>& paths, double bound_m) {
-  EncoderOptions options;
-  options.method = Method::planes;
-  options.mixture.max_error_m = bound_m;
-  options.mixture.effort = Effort::fast;
-  options.mixture.group = 255;
+std::vector<SweepPlanes> planes_of(const std::vector<PointCloud>& sweeps, double bound_m) {
+  EncoderOptions options = sensor_planes(bound_m, Effort::fast, 255);
   options.mixture.fields.all_others = false;
   Encoder encoder = *Encoder::create(options, Runtime{1});
   Decoder decoder = *Decoder::create(encoder.header(), Runtime{1});
   std::vector<SweepPlanes> planes;
-  for (const auto& path : paths)
-    planes.push_back(*decoder.decode_planes(*encoder.encode(*read_cloud(path))).front());
+  for (const PointCloud& sweep : sweeps)
+    planes.push_back(*decoder.decode_planes(*encoder.encode(sweep)).front());
   return planes;
 }
 
@@ -42,10 +39,12 @@ TEST(PlaneMotion, IsRightOrRefusedOnRealSweeps) {
        {Case{"kitti_raw_0005", 1}, Case{"kitti_raw_0001", 0.7}, Case{"kitti_odometry_00", 1}}) {
     const auto paths = expand_inputs(std::vector<std::string>{(*data / folder).string()});
     ASSERT_TRUE(paths);
+    std::vector<PointCloud> sweeps;
+    for (const auto& path : *paths) sweeps.push_back(*read_cloud(path));
     const auto truth = read_kitti_poses(*data / folder / "poses.txt");
     ASSERT_TRUE(truth);
     for (const double bound_m : {0.02, 0.05, 0.1}) {
-      const auto planes = planes_of(*paths, bound_m);
+      const auto planes = planes_of(sweeps, bound_m);
       std::size_t found = 0;
       for (std::size_t i = 1; i < planes.size(); ++i) {
         const Pose motion = (*truth)[i - 1].inverse() * (*truth)[i];

@@ -11,13 +11,6 @@
 namespace pointreel {
 namespace {
 
-EncoderOptions sensor_planes(double max_error_m, Effort effort = Effort::balanced, int group = 10) {
-  EncoderOptions options = mixture_options(max_error_m, group);
-  options.method = Method::planes;
-  options.mixture.effort = effort;
-  return options;
-}
-
 std::size_t bytes_of(const std::vector<Packet>& packets) {
   std::size_t bytes = 0;
   for (const Packet& packet : packets) bytes += packet.payload.size();

@@ -22,6 +22,14 @@ inline EncoderOptions mixture_options(double max_error_m, int group = 10) {
   return options;
 }
 
+// Planes on the sensor's grid.
+inline EncoderOptions sensor_planes(double max_error_m, Effort effort = Effort::balanced, int group = 10) {
+  EncoderOptions options = mixture_options(max_error_m, group);
+  options.method = Method::planes;
+  options.mixture.effort = effort;
+  return options;
+}
+
 // Every finite point is there, once, within the bound; fields came to the bit where the order says which is
 // whose.
 inline void check_mixture_sweep(const StreamHeader& header, const PointCloud& original, const Packet& packet,
