@@ -117,7 +117,7 @@ class Cloudini final : public Codec {
   double step_m_;
 };
 
-Result<Codecs> settings() {
+Result<Codecs> cloudini_settings() {
   const std::string name = "cloudini_rosbag_converter";
   const auto program = find_program(name);
   if (!program) return Error{ErrorCode::unsupported, "no program " + name + " on PATH"};
@@ -133,7 +133,7 @@ Result<Codecs> settings() {
   return codecs;
 }
 
-const CodecRegistration registration("cloudini", settings);
+const CodecRegistration cloudini_registration("cloudini", cloudini_settings);
 
 }  // namespace
 }  // namespace pointreel

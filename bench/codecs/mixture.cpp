@@ -24,7 +24,7 @@ Codecs mixture_settings() {
   return codecs;
 }
 
-const CodecRegistration registration("mixture", mixture_settings);
+const CodecRegistration mixture_registration("mixture", mixture_settings);
 
 }  // namespace
 }  // namespace pointreel

@@ -37,7 +37,7 @@ Codecs planes_settings() {
   return codecs;
 }
 
-const CodecRegistration registration("planes", planes_settings);
+const CodecRegistration planes_registration("planes", planes_settings);
 
 }  // namespace
 }  // namespace pointreel

@@ -151,7 +151,7 @@ Tmc3Settings predictive_corrected(const std::string& text, double lattice_m) {
           kPredictive};
 }
 
-Result<Codecs> settings() {
+Result<Codecs> tmc3_settings() {
   const auto program = find_program("tmc3");
   if (!program) return Error{ErrorCode::unsupported, "no program tmc3 on PATH"};
   Codecs codecs;
@@ -167,7 +167,7 @@ Result<Codecs> settings() {
   return codecs;
 }
 
-const CodecRegistration registration("gpcc", settings);
+const CodecRegistration tmc3_registration("gpcc", tmc3_settings);
 
 }  // namespace
 }  // namespace pointreel

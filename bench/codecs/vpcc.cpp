@@ -156,7 +156,7 @@ class Vpcc final : public Codec {
   double step_m_;
 };
 
-Result<Codecs> settings() {
+Result<Codecs> vpcc_settings() {
   const auto encoder = find_program("PccAppEncoder"), decoder = find_program("PccAppDecoder");
   if (!encoder || !decoder)
     return Error{ErrorCode::unsupported, "no programs PccAppEncoder and PccAppDecoder on PATH"};
@@ -175,7 +175,7 @@ Result<Codecs> settings() {
   return codecs;
 }
 
-const CodecRegistration registration("vpcc", settings);
+const CodecRegistration vpcc_registration("vpcc", vpcc_settings);
 
 }  // namespace
 }  // namespace pointreel

@@ -8,6 +8,7 @@
 namespace pointreel {
 
 inline constexpr double kPi = std::numbers::pi;
+inline constexpr double kTurn = 2 * kPi;
 
 constexpr double degrees_to_radians(double degrees) {
   return degrees * (kPi / 180.0);

@@ -21,7 +21,7 @@ class MeasuredGrid {
     column_azimuth_rad_.reserve(grid.column_count());
     for (const std::uint32_t tick : grid.column_tick) {
       column_azimuth_rad_.push_back(static_cast<double>(tick % grid.ticks_per_turn) / grid.ticks_per_turn *
-                                    (2 * kPi));
+                                    kTurn);
     }
   }
 

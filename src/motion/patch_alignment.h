@@ -4,9 +4,6 @@
 // of patches.
 #pragma once
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -16,31 +13,17 @@
 #include <vector>
 
 #include "motion/patch_block.h"
+#include "motion/patch_evidence.h"
 #include "motion/registration.h"
 #include "motion/surface_patches.h"
 
 namespace pointreel {
 namespace patch_alignment {
 
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-
 inline constexpr float kInlierM = 0.1F;
 inline constexpr double kLeastInlierShare = 0.5;
 inline constexpr int kLeastInliers = 100;
-inline constexpr double kLeverArmM = 10;  // makes angles comparable with lengths
-// Of the weights' sum. Where the patches leave a direction open, the pose stays as it is.
-inline constexpr double kDamping = 1e-3;
 inline constexpr double kStillM = 1e-3;  // a step that moves nothing by more ends the rounds
-
-// What the patches say about a pose: how badly it fits, and the normal equations of a step T <- exp(v, w) T.
-struct Evidence {
-  Matrix6 hessian = Matrix6::Zero();
-  Vector6 gradient = Vector6::Zero();
-  double weight = 0;
-  int inliers = 0;
-  double inlier_squares_m2 = 0;
-};
 
 // Calls use(its center moved, its normal turned, distance of the reference from its plane) for each patch
 // that has a partner.
@@ -116,52 +99,6 @@ double mean_cost_m2(const Pose& T_ref_cur, const Reference& reference, std::span
                  });
   if (matches == 0 || matches < least) return std::numeric_limits<double>::infinity();
   return static_cast<double>(sum_m2) / matches;
-}
-
-inline Vector6 scale() {
-  Vector6 scale;
-  scale << 1, 1, 1, 1 / kLeverArmM, 1 / kLeverArmM, 1 / kLeverArmM;
-  return scale;
-}
-
-// By how much it moves a point a lever arm away.
-inline double step_m(const Vector6& step) {
-  return step.head<3>().norm() + kLeverArmM * step.tail<3>().norm();
-}
-
-inline Vector6 solve(const Evidence& evidence) {
-  Matrix6 damped = evidence.hessian;
-  const Vector6 damping = (kDamping * evidence.weight + 1e-9) * scale().cwiseInverse().cwiseAbs2();
-  damped.diagonal() += damping;
-  const Vector6 step = damped.ldlt().solve(-evidence.gradient);
-  return step.allFinite() ? step : Vector6::Zero();
-}
-
-inline Pose moved(const Vector6& step, const Pose& pose) {
-  const double angle_rad = step.tail<3>().norm();
-  Pose change = Pose::Identity();
-  if (angle_rad > 0) {
-    change.linear() = Eigen::AngleAxisd(angle_rad, step.tail<3>() / angle_rad).toRotationMatrix();
-  }
-  change.translation() = step.head<3>();
-  return change * pose;
-}
-
-inline double weakest_share(const Evidence& evidence) {
-  if (!(evidence.weight > 0)) return 0;
-  const Matrix6 scaled = scale().asDiagonal() * evidence.hessian * scale().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(scaled, Eigen::EigenvaluesOnly);
-  return std::max(0.0, solver.eigenvalues().minCoeff() / evidence.weight);
-}
-
-// The translation that the patches see least, rotations free.
-inline Eigen::Vector3d weakest_translation(const Evidence& evidence) {
-  const Matrix6& h = evidence.hessian;
-  const Eigen::Matrix3d rotations = h.bottomRightCorner<3, 3>() + 1e-9 * Eigen::Matrix3d::Identity();
-  const Eigen::Matrix3d translations =
-      h.topLeftCorner<3, 3>() - h.topRightCorner<3, 3>() * rotations.ldlt().solve(h.bottomLeftCorner<3, 3>());
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(translations);
-  return solver.eigenvectors().col(0);
 }
 
 // Steps find the nearest minimum only, and along a street there are many: looks for the best one along the

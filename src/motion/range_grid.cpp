@@ -27,7 +27,7 @@ void fill_from_nearest(std::vector<std::int32_t>& ring) {
 double columns_per_rad(std::span<const double> column_azimuth_rad) {
   double covered_rad = 0;
   for (std::size_t c = 1; c < column_azimuth_rad.size(); ++c) {
-    covered_rad += std::remainder(column_azimuth_rad[c] - column_azimuth_rad[c - 1], 2 * kPi);
+    covered_rad += std::remainder(column_azimuth_rad[c] - column_azimuth_rad[c - 1], kTurn);
   }
   return std::fabs(covered_rad) > 1e-6 ? static_cast<double>(column_azimuth_rad.size() - 1) / covered_rad : 0;
 }
@@ -54,7 +54,7 @@ GridRays::GridRays(const RangeGrid& grid) : range_m_(grid.range_m) {
   directions_.mean_offset_m = static_cast<float>(offsets_m / static_cast<double>(rows_.size()));
 
   const std::size_t bins = std::bit_ceil(4 * columns);
-  directions_.bins_per_rad = static_cast<float>(static_cast<double>(bins) / (2 * kPi));
+  directions_.bins_per_rad = static_cast<float>(static_cast<double>(bins) / kTurn);
   directions_.column_of_bin.assign(bins, -1);
   cos_azimuth_.reserve(columns);
   sin_azimuth_.reserve(columns);

@@ -25,7 +25,7 @@ AngularGrid::AngularGrid(double azimuth_step_rad, double elevation_step_rad)
       rows_per_rad_(static_cast<float>(1 / elevation_step_rad)),
       // A step that divides the circle up to rounding must not get a sliver of a column more.
       rows_(static_cast<int>(std::ceil(kPi / elevation_step_rad - 1e-6))),
-      columns_(static_cast<int>(std::ceil(2 * kPi / azimuth_step_rad - 1e-6))) {
+      columns_(static_cast<int>(std::ceil(kTurn / azimuth_step_rad - 1e-6))) {
   for (int column = 0; column < columns_; ++column) {
     const SinCos azimuth = sin_cos((column + 0.5) * azimuth_step_rad_);
     cos_azimuth_.push_back(static_cast<float>(azimuth.cos));

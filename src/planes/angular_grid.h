@@ -34,7 +34,7 @@ class AngularGrid {
   GridCell cell_of(float x, float y, float z) const {
     const float azimuth = fast_atan2(y, x);
     const float from_zenith = fast_atan2(std::sqrt(x * x + y * y), z);
-    const float turned = azimuth < 0 ? azimuth + static_cast<float>(2 * kPi) : azimuth;
+    const float turned = azimuth < 0 ? azimuth + static_cast<float>(kTurn) : azimuth;
     const int row = static_cast<int>(from_zenith * rows_per_rad_);
     const int column = static_cast<int>(turned * columns_per_rad_);
     return {row < rows_ ? row : rows_ - 1, column < columns_ ? column : columns_ - 1};

@@ -18,7 +18,7 @@ namespace HWY_NAMESPACE {
 // Of the bins that points lie in; those beyond the outermost bins by up to two.
 POINTREEL_INLINE Int8 bins_towards(const Float8& x_m, const Float8& y_m, const Float8& z_m) {
   using Bins = DirectionBins;
-  constexpr auto kBinsPerRad = static_cast<float>(Bins::kAcross / (2 * kPi));
+  constexpr auto kBinsPerRad = static_cast<float>(Bins::kAcross / kTurn);
   const Float8 rho_m = larger(square_root(x_m * x_m + y_m * y_m), all<8>(0.1F));
   const Int8 across = truncated(kBinsPerRad * (arc_tangent(y_m, x_m) + all<8>(static_cast<float>(kPi)))) &
                       all_ints<8>(Bins::kAcross - 1);

@@ -17,7 +17,7 @@ SensorRays::SensorRays(const SensorModel& model, const SweepGrid& grid,
   sin_.resize(2 * columns + kColumnsMore);
   for (std::size_t c = 0; c < columns; ++c) {
     const std::uint32_t tick = grid.column_tick[c] % grid.ticks_per_turn;
-    const SinCos azimuth = sin_cos(static_cast<double>(tick) / grid.ticks_per_turn * (2 * kPi));
+    const SinCos azimuth = sin_cos(static_cast<double>(tick) / grid.ticks_per_turn * kTurn);
     for (std::size_t again = c; again < cos_.size(); again += columns) {
       cos_[again] = static_cast<float>(azimuth.cos);
       sin_[again] = static_cast<float>(azimuth.sin);
@@ -29,7 +29,7 @@ SensorRays::SensorRays(const SensorModel& model, const SweepGrid& grid,
     const SinCos alpha = sin_cos(row.azimuth_rad);
     rows_.push_back({row.slope, row.offset_m, row.side_offset_m, alpha.sin, alpha.cos,
                      std::sqrt(1 + row.slope * row.slope), columns - shift_of_row[r],
-                     row.azimuth_rad / (2 * kPi)});
+                     row.azimuth_rad / kTurn});
   }
 }
 
@@ -70,7 +70,7 @@ std::optional<SensorRays::Cell> SensorRays::cell_towards(double x_m, double y_m,
   if (std::fabs(height_above(nearest)) > kMostSlopeBeyond * rho_m) return std::nullopt;
   const Row& at = row(nearest);
   const auto azimuth_rad = static_cast<double>(fast_atan2(static_cast<float>(y_m), static_cast<float>(x_m)));
-  double turns = azimuth_rad / (2 * kPi) - at.azimuth_turns - at.side_offset_m / (2 * kPi * rho_m);
+  double turns = azimuth_rad / kTurn - at.azimuth_turns - at.side_offset_m / (kTurn * rho_m);
   turns -= static_cast<double>(static_cast<std::int64_t>(turns));
   turns += turns < 0 ? 1 : 0;
   turns = turns < 1 ? turns : 0;

@@ -113,7 +113,7 @@ inline void move_points_of_row(const GridImage& reference, int row, const WarpSo
     counts = counts & (all<8>(-kMostBeyond) <= between) & (between <= last_row + all<8>(kMostBeyond));
     const Int8 nearest_row = truncated(smaller(larger(between, all<8>(0)), last_row) + all<8>(0.5F));
     const Float8 turns =
-        in_one_turn(where(counts, arc_tangent(p.y_m, p.x_m) * all<8>(static_cast<float>(1 / (2 * kPi))) -
+        in_one_turn(where(counts, arc_tangent(p.y_m, p.x_m) * all<8>(static_cast<float>(1 / kTurn)) -
                                       gather(target.azimuth_turns.data(), nearest_row) -
                                       gather(target.side_turns_m.data(), nearest_row) / rho_m));
     const Float8 column = between_columns(target.finder, turns, counts);

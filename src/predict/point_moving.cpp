@@ -36,7 +36,7 @@ WarpSource::WarpSource(const SensorModel& model, const SweepGrid& grid, const Co
   cos_azimuth.resize(2 * columns + kLanes);
   for (std::size_t c = 0; c < columns; ++c) {
     const double turns = static_cast<double>(grid.column_tick[c] % grid.ticks_per_turn) / grid.ticks_per_turn;
-    const SinCos azimuth = sin_cos(turns * (2 * kPi));
+    const SinCos azimuth = sin_cos(turns * kTurn);
     sin_azimuth[c] = sin_azimuth[columns + c] = static_cast<float>(azimuth.sin);
     cos_azimuth[c] = cos_azimuth[columns + c] = static_cast<float>(azimuth.cos);
   }
@@ -61,8 +61,8 @@ WarpTarget::WarpTarget(const SensorModel& model, const SweepGrid& grid, const Co
   for (std::size_t row = 0; row < model.rows.size(); ++row) {
     const RowModel& at = model.rows[row];
     add_cone(at.slope, at.offset_m);
-    azimuth_turns.push_back(static_cast<float>(at.azimuth_rad / (2 * kPi)));
-    side_turns_m.push_back(static_cast<float>(at.side_offset_m / (2 * kPi)));
+    azimuth_turns.push_back(static_cast<float>(at.azimuth_rad / kTurn));
+    side_turns_m.push_back(static_cast<float>(at.side_offset_m / kTurn));
     range_per_rho.push_back(static_cast<float>(std::sqrt(1 + at.slope * at.slope)));
     shift.push_back(static_cast<float>(coding.shift(row)));
   }

@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/trigonometry.h"
 #include "sensor/phase_bank.h"
 #include "sensor/row_fit.h"
 #include "sensor/twist_equations.h"
 
 namespace pointreel {
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 RowPoints points_of_rows(const TwistSamples& samples, const PolarPoints& polar, std::size_t rows) {
   RowPoints points(rows);

@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/first_where.h"
 #include "base/parallel.h"
 #include "base/simd_loops.h"
+#include "base/trigonometry.h"
 #include "sensor/side_turn.h"
 
 namespace pointreel {
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 // A column that fewer points use is none: they are sent apart, which is cheaper, unless all columns are thin.
 std::uint32_t least_support(std::size_t points, std::size_t places) {

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
+
+#include "base/trigonometry.h"
 
 namespace pointreel {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kSmallStepRad = 0.35;  // rows look up to 20 deg apart
 constexpr double kHairRad = 1e-3;
 

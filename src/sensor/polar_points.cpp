@@ -25,7 +25,7 @@ inline void undo_motion(const Twist& twist, std::span<float> xs, std::span<float
   const auto vy = static_cast<float>(twist.v_m[1]);
   const auto vz = static_cast<float>(twist.v_m[2]);
   const auto angle_rad = static_cast<float>(angle);
-  constexpr auto kTurnsPerRad = static_cast<float>(1 / (2 * kPi));
+  constexpr auto kTurnsPerRad = static_cast<float>(1 / kTurn);
   float* px = xs.data();
   float* py = ys.data();
   float* pz = zs.data();

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 
 #include "base/parallel.h"
 #include "base/simd_loops.h"
+#include "base/trigonometry.h"
 #include "sensor/columns.h"
 #include "sensor/firing_order.h"
 #include "sensor/point_order.h"
@@ -19,8 +19,6 @@
 
 namespace pointreel {
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 void make_stray(GriddedSweep& sweep, std::size_t i, StrayReason reason) {
   sweep.cell_of_point[i] = -1;

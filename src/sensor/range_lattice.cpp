@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
+
+#include "base/trigonometry.h"
 
 namespace pointreel {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
 // The coarsest first: a lattice is one for every divisor of its step, too.
 constexpr std::array<std::uint32_t, 7> kStepsUm = {10000, 8000, 5000, 4000, 2500, 2000, 1000};
 

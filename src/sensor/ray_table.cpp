@@ -12,17 +12,17 @@ namespace {
 
 double column_azimuth_rad(const SweepGrid& grid, std::size_t column) {
   const std::uint32_t tick = grid.column_tick[column] % grid.ticks_per_turn;
-  return static_cast<double>(tick) / grid.ticks_per_turn * (2 * kPi);
+  return static_cast<double>(tick) / grid.ticks_per_turn * kTurn;
 }
 
 constexpr double kSmallTurnRad = 1;  // turns up to half of this
 
 // Azimuth in (-3 pi, 5 pi) as a part of a turn in (-1/2, 1/2].
 inline double turns_from_front(double azimuth_rad) {
-  azimuth_rad -= azimuth_rad > kPi ? 2 * kPi : 0.0;
-  azimuth_rad -= azimuth_rad > kPi ? 2 * kPi : 0.0;
-  azimuth_rad += azimuth_rad <= -kPi ? 2 * kPi : 0.0;
-  return azimuth_rad * (1 / (2 * kPi));
+  azimuth_rad -= azimuth_rad > kPi ? kTurn : 0.0;
+  azimuth_rad -= azimuth_rad > kPi ? kTurn : 0.0;
+  azimuth_rad += azimuth_rad <= -kPi ? kTurn : 0.0;
+  return azimuth_rad * (1 / kTurn);
 }
 
 }  // namespace
@@ -157,7 +157,7 @@ std::vector<std::int32_t> column_shift_of_row(const SensorModel& model, const Sw
   const double columns_per_turn = static_cast<double>(columns - 1) * grid.ticks_per_turn / ticks;
   const double most = static_cast<double>(columns);
   for (std::size_t r = 0; r < shifts.size(); ++r) {
-    const double shift = model.rows[r].azimuth_rad / (2 * kPi) * columns_per_turn;
+    const double shift = model.rows[r].azimuth_rad / kTurn * columns_per_turn;
     const double nearest = shift + (shift < 0 ? -0.5 : 0.5);
     shifts[r] = static_cast<std::int32_t>(std::clamp(nearest, -most, most));
   }

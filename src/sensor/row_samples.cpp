@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <span>
 
+#include "base/trigonometry.h"
 #include "sensor/polar_points.h"
 #include "sensor/row_assignment.h"
 
 namespace pointreel {
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 struct Chosen {
   std::uint32_t point, row, column;

@@ -24,7 +24,7 @@ inline std::uint32_t azimuth_of_tick(std::uint32_t tick, std::uint32_t ticks_per
 }
 
 inline std::uint32_t azimuth_of_row(const RowModel& row) {
-  const double part = row.azimuth_rad / (2 * kPi) * kWholeTurn;  // within half a turn
+  const double part = row.azimuth_rad / kTurn * kWholeTurn;  // within half a turn
   return static_cast<std::uint32_t>(static_cast<std::int64_t>(part + (part < 0 ? -0.5 : 0.5)));
 }
 
@@ -35,7 +35,7 @@ inline std::uint32_t row_turn(OrderKind kind, const RowModel& row) {
 
 // How far the side offset turns a point at this range, if there is one; any range will do.
 inline std::int32_t turned_by_side(float side_m, float rho_m) {
-  constexpr auto kPerRad = static_cast<float>(kWholeTurn / (2 * kPi));
+  constexpr auto kPerRad = static_cast<float>(kWholeTurn / kTurn);
   return static_cast<std::int32_t>(fast_atan2(side_m, rho_m > 0 ? rho_m : 0.0F) * kPerRad);
 }
 

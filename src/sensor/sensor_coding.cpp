@@ -12,8 +12,6 @@
 namespace pointreel {
 namespace {
 
-constexpr double kTurn = 2 * kPi;
-
 template <class Coder>
 std::uint32_t code_bits(Coder& coder, std::uint32_t value, int bits) {
   return static_cast<std::uint32_t>(code_plain_bits(coder, value, bits));

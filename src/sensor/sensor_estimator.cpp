@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <utility>
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/trigonometry.h"
 #include "sensor/blind_twist.h"
 #include "sensor/columns.h"
 #include "sensor/diagnosis.h"
@@ -22,7 +22,6 @@
 namespace pointreel {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
 // Rows of a compensated sweep are this sharp once the motion is put back, or there was none.
 constexpr double kCompensatedScatterM = 3e-3;
 // A model that does no better than this is none.

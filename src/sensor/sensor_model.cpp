@@ -1,7 +1,8 @@
 #include "sensor/sensor_model.h"
 
 #include <cmath>
-#include <numbers>
+
+#include "base/trigonometry.h"
 
 namespace pointreel {
 namespace {
@@ -13,7 +14,6 @@ double to_step(double value, double step) {
 }  // namespace
 
 RowModel rounded(const RowModel& row) {
-  constexpr double kTurn = 2 * std::numbers::pi;
   double turns = to_step(row.azimuth_rad / kTurn, kAzimuthStepTurns);
   turns -= std::ceil(turns - 0.5);
   return {to_step(row.slope, kSlopeStep), to_step(row.offset_m, kOffsetStepM), turns * kTurn,

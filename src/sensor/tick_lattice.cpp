@@ -4,16 +4,12 @@
 #include <cmath>
 #include <complex>
 #include <cstdlib>
-#include <numbers>
 
+#include "base/trigonometry.h"
 #include "sensor/phase_bank.h"
 
 namespace pointreel {
-namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
-
-}  // namespace
+namespace {}  // namespace
 
 std::uint32_t find_ticks_per_turn(const PolarPoints& polar, const RowPoints& rows) {
   constexpr std::size_t kPairs = 1500;

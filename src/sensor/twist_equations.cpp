@@ -5,13 +5,13 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
+
+#include "base/trigonometry.h"
 
 namespace pointreel {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
 using Vector6 = Eigen::Matrix<double, 6, 1>;  // v, w
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 

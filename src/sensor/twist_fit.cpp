@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/trigonometry.h"
 #include "sensor/phase_bank.h"
 #include "sensor/polar_points.h"
 #include "sensor/twist_equations.h"
@@ -11,7 +11,6 @@
 namespace pointreel {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
 constexpr int kMostRounds = 4;  // of each kind
 
 // Every so many points, by row.

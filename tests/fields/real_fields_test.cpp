@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "base/trigonometry.h"
 #include "fields/field_samples.h"
 #include "pointreel/io.h"
 #include "support/clouds.h"
@@ -14,7 +14,6 @@ namespace {
 // Rows from the ring field, or begun anew wherever the azimuth drops; columns from the azimuth.
 SampleGrid grid_of(const PointCloud& cloud) {
   constexpr std::uint32_t kColumns = 2400;
-  constexpr double kTurn = 2 * std::numbers::pi;
   SampleGrid grid(0, 0);
   grid.rows = 64;
   grid.columns = kColumns;

@@ -38,8 +38,8 @@ TEST_P(GridSteps, CoverTheWholeSphereAndNoMore) {
   const AngularGrid grid = grid_of_degrees(std::get<0>(GetParam()), std::get<1>(GetParam()));
   EXPECT_GE(grid.rows() * grid.elevation_step_rad(), kPi * (1 - 1e-9));
   EXPECT_LT((grid.rows() - 1) * grid.elevation_step_rad(), kPi);
-  EXPECT_GE(grid.columns() * grid.azimuth_step_rad(), 2 * kPi * (1 - 1e-9));
-  EXPECT_LT((grid.columns() - 1) * grid.azimuth_step_rad(), 2 * kPi);
+  EXPECT_GE(grid.columns() * grid.azimuth_step_rad(), kTurn * (1 - 1e-9));
+  EXPECT_LT((grid.columns() - 1) * grid.azimuth_step_rad(), kTurn);
 }
 
 INSTANTIATE_TEST_SUITE_P(Degrees, GridSteps,

@@ -122,7 +122,7 @@ TEST(Warp, PointsBesideAPartialViewAreDropped) {
   const ReferenceImage warped = warp(model, grid, reference, moved(0, 0, 0.5), 1);
   std::size_t returns = 0;
   for (const float range_m : warped.range_m) returns += range_m > 0 ? 1 : 0;
-  const double kept = 1 - 0.5 / (2 * kPi / 4);
+  const double kept = 1 - 0.5 / (kTurn / 4);
   EXPECT_NEAR(static_cast<double>(returns), kept * static_cast<double>(warped.range_m.size()),
               0.05 * static_cast<double>(warped.range_m.size()));
 }

@@ -46,7 +46,7 @@ TEST(SensorCoding, EmptyModelComesBack) {
 
 TEST(SensorCoding, RoundingAModelTwiceChangesNothing) {
   for (const RowModel& row : small_model().rows) EXPECT_EQ(rounded(row), row);
-  EXPECT_NEAR(rounded({0, 0, 2 * kPi + 0.25, 0}).azimuth_rad, 0.25, 1e-6);
+  EXPECT_NEAR(rounded({0, 0, kTurn + 0.25, 0}).azimuth_rad, 0.25, 1e-6);
 }
 
 TEST(SensorCoding, SteadyRotationCostsLittle) {
