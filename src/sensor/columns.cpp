@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "base/simd_loops.h"
 #include "base/trigonometry.h"
+#include "sensor/row_values.h"
 #include "sensor/side_turn.h"
 
 namespace pointreel {
@@ -237,14 +238,12 @@ POINTREEL_SIMD_LOOPS void fill_azimuths(const SensorModel& model, const PolarPoi
   constexpr auto kTurnF = static_cast<float>(kTurn);
   constexpr std::size_t kBlock = 256;
   float alpha_rad[kBlock], side_m[kBlock], side_rad[kBlock];
+  const RowValues alphas_rad(model, &RowModel::azimuth_rad), sides_m(model, &RowModel::side_offset_m);
   for (std::size_t first = from; first < last; first += kBlock) {
     const std::size_t count = std::min(kBlock, last - first);
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::int16_t r = rows[first + k];
-      const RowModel& row = model.rows[r < 0 ? 0 : static_cast<std::size_t>(r)];
-      alpha_rad[k] = static_cast<float>(row.azimuth_rad);
-      side_m[k] = static_cast<float>(row.side_offset_m);
-    }
+    const RowBlock block(&rows[first], count);
+    block.spread(alphas_rad, alpha_rad);
+    block.spread(sides_m, side_m);
     const float* azimuth_rad = &polar.azimuth_rad[first];
     const float* rho_m = &polar.rho_m[first];
     float* column_rad = &azimuths[first];

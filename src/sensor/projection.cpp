@@ -14,6 +14,7 @@
 #include "sensor/polar_points.h"
 #include "sensor/ray_table.h"
 #include "sensor/row_assignment.h"
+#include "sensor/row_values.h"
 #include "sensor/side_turn.h"
 #include "sensor/twist_fit.h"
 
@@ -31,52 +32,38 @@ void make_stray(GriddedSweep& sweep, std::size_t i, StrayReason reason) {
 class Measurement {
  public:
   Measurement(const SensorModel& model, const SweepColumns& columns, double max_deviation_m)
-      : columns_(columns), most_m_(max_deviation_m) {
+      : columns_(columns),
+        most_m_(static_cast<float>(max_deviation_m)),
+        slopes_(model, &RowModel::slope),
+        offsets_m_(model, &RowModel::offset_m),
+        alphas_rad_(model, &RowModel::azimuth_rad),
+        sides_m_(model, &RowModel::side_offset_m) {
     const double rad_per_tick = kTurn / columns.ticks_per_turn;
-    for (const std::uint32_t tick : columns.tick)
-      column_rad_.push_back(tick % columns.ticks_per_turn * rad_per_tick);
+    for (const std::uint32_t tick : columns.tick) {
+      const double rad = tick % columns.ticks_per_turn * rad_per_tick;
+      column_rad_.push_back(static_cast<float>(rad > kTurn / 2 ? rad - kTurn : rad));
+    }
     if (column_rad_.empty()) column_rad_.push_back(0);  // looked at for strays
-    for (const RowModel& row : model.rows)
-      rows_.push_back({row.slope, row.offset_m, 1 / std::sqrt(1 + row.slope * row.slope), row.azimuth_rad,
-                       static_cast<float>(row.side_offset_m)});
   }
 
   POINTREEL_SIMD_LOOPS void of_block(const PointCloud& cloud, const PolarPoints& polar,
                                      const std::vector<std::int16_t>& rows, std::size_t first,
                                      std::size_t count, GriddedSweep& sweep) const {
-    // Doubles: what is off by 2e-7 is off by 0.02 mm 80 m away.
-    double slope[kBlock], offset_m[kBlock], cosine[kBlock], ray_rad[kBlock], vertical_m[kBlock],
-        squared_m2[kBlock];
-    float side_m[kBlock], side_rad[kBlock];
+    // Floats: azimuths within half a turn are off by 3e-7, which is 0.03 mm 100 m away.
+    float slope[kBlock], offset_m[kBlock], alpha_rad[kBlock], side_m[kBlock], phi_rad[kBlock],
+        side_rad[kBlock], vertical_m[kBlock], squared_m2[kBlock];
     std::int32_t cell[kBlock];
     const auto column_count = static_cast<std::int32_t>(columns_.tick.size());
     const std::int16_t* row = &rows[first];
     const std::int32_t* column = &columns_.column_of_point[first];
-    const auto row_of = [&](std::int16_t r) -> const Row& {
-      return rows_.empty() ? kNoLaser : rows_[static_cast<std::size_t>(r < 0 ? 0 : r)];
-    };
-    int other_rows = 0;
-    for (std::size_t k = 0; k < count; ++k) other_rows |= row[k] != row[0] ? 1 : 0;
-    if (other_rows == 0) {  // as a rule, where row follows row
-      const Row& r = row_of(row[0]);
-      std::fill_n(slope, count, r.slope);
-      std::fill_n(offset_m, count, r.offset_m);
-      std::fill_n(side_m, count, r.side_m);
-      std::fill_n(cosine, count, r.cosine);
-      std::fill_n(ray_rad, count, r.azimuth_rad);
-    } else {
-      for (std::size_t k = 0; k < count; ++k) {
-        const Row& r = row_of(row[k]);
-        slope[k] = r.slope;
-        offset_m[k] = r.offset_m;
-        side_m[k] = r.side_m;
-        cosine[k] = r.cosine;
-        ray_rad[k] = r.azimuth_rad;
-      }
-    }
-    const double* column_rad = column_rad_.data();
+    const RowBlock block(row, count);
+    block.spread(slopes_, slope);
+    block.spread(offsets_m_, offset_m);
+    block.spread(alphas_rad_, alpha_rad);
+    block.spread(sides_m_, side_m);
+    const float* column_rad = column_rad_.data();
     for (std::size_t k = 0; k < count; ++k) {
-      ray_rad[k] += column_rad[std::max(column[k], 0)];
+      phi_rad[k] = column_rad[column[k] < 0 ? 0 : column[k]];
       cell[k] = (row[k] | column[k]) < 0 ? -1 : row[k] * column_count + column[k];
     }
     const float* rho_m = &polar.rho_m[first];
@@ -84,20 +71,20 @@ class Measurement {
     const float* azimuth_rad = &polar.azimuth_rad[first];
     float* range_m = &sweep.range_m[first];
     float* deviation_m = &sweep.deviation_m[first];
-    const double most_m2 = most_m_ * most_m_;
+    const float most_m2 = most_m_ * most_m_;
+    constexpr auto kTurnF = static_cast<float>(kTurn);
     side_turns(side_m, rho_m, count, side_rad);
     for (std::size_t k = 0; k < count; ++k) {
-      const double rho = rho_m[k];
-      const double above = z_m[k] - offset_m[k];
-      vertical_m[k] = (above - slope[k] * rho) * cosine[k];
-      range_m[k] = static_cast<float>((rho + slope[k] * above) * cosine[k]);
-      double turn = static_cast<double>(azimuth_rad[k]) - ray_rad[k];  // within (-4 pi, 2 pi)
-      turn += turn < -kTurn / 2 ? kTurn : 0;
-      turn += turn < -kTurn / 2 ? kTurn : 0;
-      turn -= turn > kTurn / 2 ? kTurn : 0;
-      const double across = rho * (turn - static_cast<double>(side_rad[k]));
+      const float above = z_m[k] - offset_m[k];
+      const float cosine = 1 / std::sqrt(1 + slope[k] * slope[k]);
+      vertical_m[k] = (above - slope[k] * rho_m[k]) * cosine;
+      range_m[k] = (rho_m[k] + slope[k] * above) * cosine;
+      float turn = (azimuth_rad[k] - alpha_rad[k]) - phi_rad[k];  // rows are within half a turn, too
+      turn += turn < -kTurnF / 2 ? kTurnF : 0;
+      turn -= turn > kTurnF / 2 ? kTurnF : 0;
+      const float across = rho_m[k] * (turn - side_rad[k]);
       squared_m2[k] = across * across + vertical_m[k] * vertical_m[k];
-      deviation_m[k] = std::sqrt(static_cast<float>(squared_m2[k]));
+      deviation_m[k] = std::sqrt(squared_m2[k]);
     }
     int strays = 0;
     for (std::size_t k = 0; k < count; ++k)
@@ -122,16 +109,10 @@ class Measurement {
   static constexpr std::size_t kBlock = 256;
 
  private:
-  struct Row {
-    double slope, offset_m, cosine, azimuth_rad;
-    float side_m;
-  };
-  static constexpr Row kNoLaser = {0, 0, 1, 0, 0};
-
   const SweepColumns& columns_;
-  double most_m_;
-  std::vector<double> column_rad_;
-  std::vector<Row> rows_;
+  float most_m_;
+  RowValues slopes_, offsets_m_, alphas_rad_, sides_m_;
+  std::vector<float> column_rad_;  // within half a turn
 };
 
 void measure(const SensorModel& model, const PointCloud& cloud, const PolarPoints& polar,

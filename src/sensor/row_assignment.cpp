@@ -8,7 +8,9 @@
 #include <unordered_map>
 
 #include "base/parallel.h"
+#include "base/simd_loops.h"
 #include "sensor/row_runs.h"
+#include "sensor/row_values.h"
 
 namespace pointreel {
 namespace {
@@ -183,6 +185,35 @@ std::vector<std::int16_t> rows_by_runs(const SensorModel& model, const PolarPoin
   return rows;
 }
 
+// Hardly any point is far from its row, but for those without one.
+class FarFromRow {
+ public:
+  static constexpr double kFarM = 0.02;
+  static constexpr std::size_t kBlock = 256;
+  static_assert(kPiecePoints % kBlock == 0);
+
+  explicit FarFromRow(const SensorModel& model)
+      : slopes_(model, &RowModel::slope), offsets_m_(model, &RowModel::offset_m) {}
+
+  // Of `count` points, at most kBlock.
+  POINTREEL_SIMD_LOOPS bool any(const PolarPoints& polar, const std::vector<std::int16_t>& rows,
+                                std::size_t first, std::size_t count) const {
+    float slope[kBlock], offset_m[kBlock];
+    const RowBlock block(&rows[first], count);
+    block.spread(slopes_, slope);
+    block.spread(offsets_m_, offset_m);
+    const float* rho_m = &polar.rho_m[first];
+    const float* z_m = &polar.z_m[first];
+    int far = 0;
+    for (std::size_t k = 0; k < count; ++k)
+      far |= std::fabs(z_m[k] - slope[k] * rho_m[k] - offset_m[k]) > static_cast<float>(kFarM) ? 1 : 0;
+    return far != 0;
+  }
+
+ private:
+  RowValues slopes_, offsets_m_;
+};
+
 }  // namespace
 
 const Field* find_ring_field(const PointCloud& cloud) {
@@ -237,36 +268,21 @@ std::vector<std::int16_t> nearest_rows(const SensorModel& model, const PolarPoin
 
 void settle_rows(const SensorModel& model, const PolarPoints& polar, int threads,
                  std::vector<std::int16_t>& rows) {
-  constexpr double kFarM = 0.02;
-  constexpr std::size_t kBlock = 256;
-  static_assert(kPiecePoints % kBlock == 0);
   if (!model.ring_of_row.empty() || model.rows.empty()) return;
   const NearestRow nearest(model);
+  const FarFromRow far_from_row(model);
   const auto settle_block = [&](std::size_t first, std::size_t last) {
-    float slope[kBlock], offset_m[kBlock];
-    const std::size_t count = last - first;
-    for (std::size_t k = 0; k < count; ++k) {
-      const RowModel& row = model.rows[rows[first + k] < 0 ? 0 : static_cast<std::size_t>(rows[first + k])];
-      slope[k] = static_cast<float>(row.slope);
-      offset_m[k] = static_cast<float>(row.offset_m);
-    }
-    // Hardly any point is far from its row, but for those without one.
-    const float* rho_m = &polar.rho_m[first];
-    const float* z_m = &polar.z_m[first];
-    int far = 0;
-    for (std::size_t k = 0; k < count; ++k)
-      far |= std::fabs(z_m[k] - slope[k] * rho_m[k] - offset_m[k]) > static_cast<float>(kFarM) ? 1 : 0;
-    if (far == 0) return;
+    if (!far_from_row.any(polar, rows, first, last - first)) return;
     for (std::size_t i = first; i < last; ++i) {
       if (rows[i] < 0 || !polar.has_ray(i)) continue;
       const RowModel& row = model.rows[static_cast<std::size_t>(rows[i])];
-      if (std::fabs(height_above_row_m(row, polar.rho_m[i], polar.z_m[i])) > kFarM)
+      if (std::fabs(height_above_row_m(row, polar.rho_m[i], polar.z_m[i])) > FarFromRow::kFarM)
         rows[i] = nearest(polar.rho_m[i], polar.z_m[i]);
     }
   };
   for_each_piece(rows.size(), threads, [&](std::size_t, std::size_t piece_first, std::size_t last) {
-    for (std::size_t first = piece_first; first < last; first += kBlock)
-      settle_block(first, std::min(last, first + kBlock));
+    for (std::size_t first = piece_first; first < last; first += FarFromRow::kBlock)
+      settle_block(first, std::min(last, first + FarFromRow::kBlock));
   });
 }
 

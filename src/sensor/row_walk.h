@@ -33,10 +33,14 @@ inline std::uint32_t row_turn(OrderKind kind, const RowModel& row) {
   return kind == OrderKind::row_column ? 0 : azimuth_of_row(row);
 }
 
-// How far the side offset turns a point at this range, if there is one; any range will do.
+// How far the side offset turns a point at this range, if there is one: the arc tangent's series, which need not
+// be right near the axis. Any range will do.
 inline std::int32_t turned_by_side(float side_m, float rho_m) {
   constexpr auto kPerRad = static_cast<float>(kWholeTurn / kTurn);
-  return static_cast<std::int32_t>(fast_atan2(side_m, rho_m > 0 ? rho_m : 0.0F) * kPerRad);
+  const float least_m = std::fabs(side_m) + 1e-9F;
+  const float t = side_m / (rho_m > least_m ? rho_m : least_m);
+  const float t2 = t * t;
+  return static_cast<std::int32_t>((t - t * t2 * (1.0F / 3 - t2 * (1.0F / 5))) * kPerRad);
 }
 
 inline float cosine_of(const RowModel& row) {
