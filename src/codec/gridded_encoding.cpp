@@ -94,8 +94,8 @@ EncodedPoints encode_points(const PointsSetting& setting, const PointCloud& clou
   put_quantiser(writer, sweep_cells.quantiser);
   writer.put(encoded_cells.bytes);
 
-  const auto corrections = find_corrections(RayTable(model, sweep.grid), cloud, range_of_cell_m,
-                                            sweep.point_of_cell, cells, max_error_m, threads);
+  const auto corrections =
+      find_corrections(model, cloud, sweep, range_of_cell_m, cells, max_error_m, threads);
 
   EncodedPoints encoded;
   std::vector<Stray> strays;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/simd_loops.h"
 #include "codec/sections.h"
 #include "planes/plane_choice.h"
 #include "planes/plane_search.h"
@@ -20,14 +21,20 @@ MovedPlanes moved(const PlaneSetting& setting, const SensorRays& rays, const Ear
 double plane_step_m(const PlaneSetting& setting) {
   return 0.5 * setting.max_error_m;
 }
-void count_cells(const GridImage& image, const PlaneTiles& planes, FrameStatistics& statistics) {
+
+POINTREEL_SIMD_LOOPS void count_cells(const GridImage& image, const PlaneTiles& planes,
+                                      FrameStatistics& statistics) {
   const TileGrid& tiles = planes.tiles;
   for (int row = 0; row < image.rows; ++row) {
     const float* range_m = &image.range_m[image.index(row, 0)];
     for (int tile = 0; tile < tiles.across; ++tile) {
-      const auto returns = static_cast<std::uint32_t>(std::count_if(range_m + TileGrid::first_column(tile),
-                                                                    range_m + tiles.end_column(tile),
-                                                                    [](float range) { return range > 0; }));
+      const int first = TileGrid::first_column(tile), end = tiles.end_column(tile);
+      std::uint32_t returns = 0;
+      if (end - first == kTileColumns) {
+        for (int c = 0; c < kTileColumns; ++c) returns += range_m[first + c] > 0 ? 1 : 0;
+      } else {
+        for (int c = first; c < end; ++c) returns += range_m[c] > 0 ? 1 : 0;
+      }
       const std::int32_t plane = planes.plane_of_tile[tiles.index(row / kTileRows, tile)];
       if (plane < 0)
         statistics.unfit_cells += returns;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "base/first_where.h"
 #include "entropy/adaptive_models.h"
 
 namespace pointreel {
@@ -66,19 +67,16 @@ namespace {
 template <class Take>
 void for_each_difference(std::span<const std::uint32_t> expected, std::span<const std::uint32_t> actual,
                          std::size_t cells, const Take& take) {
-  std::size_t first = 0;
+  const std::uint32_t *there = expected.data(), *here = actual.data();
+  const auto differs = [=](std::size_t i) { return static_cast<int>(there[i] != here[i]); };
+  const std::size_t first = first_where(0, actual.size(), differs);
   std::size_t last = actual.size();
-  while (first < last && expected[first] == actual[first]) ++first;
   while (last > first && expected[last - 1] == actual[last - 1]) --last;
   if (first == last) return;
   const auto place = std::make_unique_for_overwrite<std::uint32_t[]>(cells);
   for (std::size_t i = first; i < last; ++i) place[expected[i]] = static_cast<std::uint32_t>(i);
   std::vector<std::uint32_t> keys;
-  for (std::size_t i = first; i < last;) {
-    if (expected[i] == actual[i]) {
-      ++i;
-      continue;
-    }
+  for (std::size_t i = first; i < last; i = first_where(i, last, differs)) {
     keys.clear();
     const std::size_t begin = i;
     for (std::size_t end = i + 1; i < end; ++i) {
