@@ -46,8 +46,8 @@ bool code_band(Coder& mask_coder, Coder& range_coder, const BandSetting& setting
           static_cast<std::ptrdiff_t>(image.index(band.first_row + first + row, 0)) -
           std::ptrdiff_t{kLag} * row;
     }
-    mask.start_block(first == 0);
-    ranges.start_block(first == 0, phase_m);
+    mask.start_block();
+    ranges.start_block(phase_m);
     if constexpr (kPredicted) reference.load_block(*setting.reference, band.first_row + first);
     for (int step = 0; step < Wavefront::steps(columns); ++step) {
       mask.start_step();

@@ -47,12 +47,7 @@ struct CodedRanges {
         steps(columns) {}
 
   // `phase_m`: per row, where its lattice has a point.
-  void start_block(bool first, const std::array<float, Wavefront::kRows>& phase_m) {
-    if (!first) {
-      planes.start_next_block();
-      errors.start_next_block();
-      steps.start_next_block();
-    }
+  void start_block(const std::array<float, Wavefront::kRows>& phase_m) {
     row_errors = RowErrors<kExperts>(step_m);
     memory = RowMemory();
     lattice_phase_m = phase_m;
@@ -109,7 +104,10 @@ struct CodedRanges {
     store(range_m, planes.range_m.at(step));
     store(inverse, planes.inverse_range.at(step));
     store(coded_steps, steps.at(step));
+    planes.keep_for_next_block(step);
+    steps.keep_for_next_block(step);
     remember_errors(proposals, range_m, proposed, step_m, step, errors, row_errors);
+    errors.keep_for_next_block(step);
     memory.add(range_m);
     return inverse;
   }

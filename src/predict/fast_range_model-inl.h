@@ -41,8 +41,8 @@ class FastRangeModel {
       ++most_shift_;
   }
 
-  void start_block(bool first, const std::array<float, Wavefront::kRows>& lattice_phase_m) {
-    coded_.start_block(first, lattice_phase_m);
+  void start_block(const std::array<float, Wavefront::kRows>& lattice_phase_m) {
+    coded_.start_block(lattice_phase_m);
     lines_ = RowLines();
   }
 

@@ -23,10 +23,7 @@ class HitMaskModel {
  public:
   HitMaskModel(int columns, HitMaskState& state) : planes_(columns), state_(state) {}
 
-  void start_block(bool first) {
-    if (!first) planes_.start_next_block();
-    row_range_ = all_ints<8>(0);
-  }
+  void start_block() { row_range_ = all_ints<8>(0); }
 
   // Eight cells; outside the image hits are the better guess.
   POINTREEL_INLINE void start_step() { hits_ = (1U << Wavefront::kRows) - 1; }

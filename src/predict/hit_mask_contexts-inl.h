@@ -43,13 +43,6 @@ struct HitMaskPlanes {
     return moved_up(pattern_above(step), *pattern.at(step, kAhead2, -2));
   }
 
-  void start_next_block() {
-    pattern.start_next_block();
-    log_range.start_next_block();
-    column_range.start_next_block();
-    column_history.start_next_block();
-  }
-
   HWY_NOINLINE void remember(int step, const Int8& hits, const Float8& range_m) {
     // The float's exponent and 11 bits of its mantissa, 1 at 2^-4 m; what is nearer or beyond 2^12 m is
     // clamped.
@@ -64,6 +57,10 @@ struct HitMaskPlanes {
     store(shifted_left<1>(load_ints<8>(pattern.at(step, -1))) | hits, pattern.at(step));
     store((shifted_left<1>(load_ints<8>(column_history.at(step, 0, -1))) | hits) & all_ints<8>(0xFF),
           column_history.at(step));
+    pattern.keep_for_next_block(step);
+    log_range.keep_for_next_block(step);
+    column_range.keep_for_next_block(step);
+    column_history.keep_for_next_block(step);
   }
 };
 

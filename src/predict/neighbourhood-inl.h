@@ -29,9 +29,9 @@ struct RangePlanes {
   SkewedPlane<float> range_m, inverse_range;
 
   explicit RangePlanes(int columns) : range_m(columns), inverse_range(columns) {}
-  void start_next_block() {
-    range_m.start_next_block();
-    inverse_range.start_next_block();
+  void keep_for_next_block(int step) {
+    range_m.keep_for_next_block(step);
+    inverse_range.keep_for_next_block(step);
   }
 };
 

@@ -41,8 +41,8 @@ class RangeModel {
         state_(state) {}
 
   // `lattice_phase_m`: per row, where its lattice has a point.
-  void start_block(bool first, const std::array<float, Wavefront::kRows>& lattice_phase_m) {
-    coded_.start_block(first, lattice_phase_m);
+  void start_block(const std::array<float, Wavefront::kRows>& lattice_phase_m) {
+    coded_.start_block(lattice_phase_m);
     lines_ = RowLines();
     bias_ = ReferenceBias(coded_.step_m);
   }

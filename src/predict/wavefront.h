@@ -32,7 +32,7 @@ class SkewedPlane {
   static constexpr int kPitch = kRowsAbove + Wavefront::kRows + kRowsBelow;  // from one of kDepth to the next
 
   explicit SkewedPlane(int columns, T empty = T())
-      : values_(static_cast<std::size_t>((Wavefront::steps(columns) + 2 * kBorder) * kDepth * kPitch),
+      : values_(static_cast<std::size_t>((kBlockLag + Wavefront::steps(columns) + kBorder) * kDepth * kPitch),
                 empty) {}
 
   // Values of the eight rows that are `rows_down` rows below those of the step, `columns_right` columns right
@@ -45,23 +45,25 @@ class SkewedPlane {
   }
   // The first value of a row, from -kRowsAbove to kRows + kRowsBelow - 1; the next one is kDepth * kPitch on.
   T* row(int row) {
-    return &values_[static_cast<std::size_t>((Wavefront::kLag * row + kBorder) * kDepth * kPitch +
+    return &values_[static_cast<std::size_t>((Wavefront::kLag * row + kBlockLag) * kDepth * kPitch +
                                              kRowsAbove + row)];
   }
 
-  // The last rows of this block become those above the next: of each cell's values the same ones, a block's
-  // rows further on in the wavefront.
-  void start_next_block() {
-    constexpr std::size_t kApart = std::size_t{Wavefront::kLag} * Wavefront::kRows * kDepth * kPitch;
-    for (std::size_t to = 0; to + kApart < values_.size(); to += kPitch)
-      std::copy_n(&values_[to + kApart + Wavefront::kRows], kRowsAbove, &values_[to]);
+  // After the values of a step are stored: those of the last rows are also the ones above the next block, where
+  // they stand a block's rows further back in the wavefront, which this block has left behind.
+  void keep_for_next_block(int step) {
+    const T* from = at(step) + Wavefront::kRows - kRowsAbove;
+    T* to = &values_[static_cast<std::size_t>(step * kDepth * kPitch)];
+    for (int k = 0; k < kDepth; ++k) std::copy_n(from + k * kPitch, kRowsAbove, to + k * kPitch);
   }
 
  private:
   static constexpr int kBorder = Wavefront::kMargin + Wavefront::kLag * kRowsAbove;
+  static constexpr int kBlockLag = Wavefront::kLag * Wavefront::kRows;
+  static_assert(kBlockLag >= kBorder);
 
   static std::size_t offset(int step, int columns_right, int rows_down) {
-    return static_cast<std::size_t>((step + columns_right + Wavefront::kLag * rows_down + kBorder) * kDepth *
+    return static_cast<std::size_t>((step + columns_right + Wavefront::kLag * rows_down + kBlockLag) * kDepth *
                                         kPitch +
                                     kRowsAbove + rows_down);
   }
