@@ -4,7 +4,19 @@
 #include <cmath>
 #include <limits>
 
+#include "base/simd_loops.h"
+
 namespace pointreel {
+namespace {
+
+POINTREEL_SIMD_LOOPS bool all_finite(const float* values, std::size_t count) {
+  int any = 0;
+  for (std::size_t k = 0; k < count; ++k)
+    any |= std::fabs(values[k]) <= std::numeric_limits<float>::max() ? 0 : 1;
+  return any == 0;
+}
+
+}  // namespace
 
 bool is_finite(const Point3f& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
@@ -21,13 +33,9 @@ const Field* PointCloud::find_field(std::string_view name) const {
 
 std::size_t PointCloud::count_non_finite() const {
   if (positions.empty()) return 0;
-  // Hardly a cloud has any: all coordinates in a row and without branches, as compilers like it.
+  // Hardly a cloud has any.
   static_assert(sizeof(Point3f) == 3 * sizeof(float));
-  const float* coordinates = &positions[0].x;
-  int any = 0;
-  for (std::size_t k = 0; k < 3 * positions.size(); ++k)
-    any |= std::fabs(coordinates[k]) <= std::numeric_limits<float>::max() ? 0 : 1;
-  if (any == 0) return 0;
+  if (all_finite(&positions[0].x, 3 * positions.size())) return 0;
   return static_cast<std::size_t>(
       std::count_if(positions.begin(), positions.end(), [](const Point3f& p) { return !is_finite(p); }));
 }

@@ -20,22 +20,22 @@
 namespace pointreel {
 namespace {
 
-// By how much the range of each cell of the sensor grid may be off, given how far its point is off its ray.
-POINTREEL_SIMD_LOOPS std::vector<float> range_tolerances_m(const GriddedSweep& sweep, std::size_t cells,
-                                                           double max_error_m) {
-  std::vector<float> tolerance_m(cells);
+// By how much the range of each cell of the sensor grid may be off, given how far its point is off its ray;
+// where there is none, anything.
+POINTREEL_SIMD_LOOPS RawVector<float> range_tolerances_m(const GriddedSweep& sweep, double max_error_m) {
   const auto squared_m2 = static_cast<float>(max_error_m * max_error_m);
-  const std::size_t points = sweep.cell_of_point.size();
-  RawVector<float> of_point_m(points);
-  for (std::size_t i = 0; i < points; ++i) {  // becomes SIMD code
-    const float deviation_m = sweep.deviation_m[i];
-    of_point_m[i] = std::sqrt(std::max(0.0F, squared_m2 - deviation_m * deviation_m));
+  const std::size_t cells = sweep.point_of_cell.size();
+  RawVector<float> tolerances_m(cells);
+  float* of_cell_m = tolerances_m.data();
+  for (std::size_t cell = 0; cell < cells; ++cell) {
+    const std::uint32_t point = sweep.point_of_cell[cell];
+    of_cell_m[cell] = sweep.deviation_m[point == kNoPoint ? 0 : point];
   }
-  for (std::size_t i = 0; i < points; ++i) {
-    if (sweep.cell_of_point[i] >= 0)
-      tolerance_m[static_cast<std::size_t>(sweep.cell_of_point[i])] = of_point_m[i];
+  for (std::size_t cell = 0; cell < cells; ++cell) {  // becomes SIMD code
+    const float left_m2 = squared_m2 - of_cell_m[cell] * of_cell_m[cell];
+    of_cell_m[cell] = std::sqrt(left_m2 > 0 ? left_m2 : 0.0F);
   }
-  return tolerance_m;
+  return tolerances_m;
 }
 
 void put_quantiser(ByteWriter& writer, const RangeQuantiser& quantiser) {
@@ -59,8 +59,7 @@ EncodedCells encode_cells(const GeometrySetting& setting, const GriddedSweep& sw
   PlaneSection planes;
   if (plane_stage != PlaneStage::none) {
     const auto earlier = earlier_planes(rounded);
-    const GridImage tolerance =
-        coding.image_of(range_tolerances_m(sweep, coding.rows() * coding.columns(), max_error_m), threads);
+    const GridImage tolerance = coding.image_of(range_tolerances_m(sweep, max_error_m), threads);
     planes = encode_planes({model, sweep.grid, coding, max_error_m, threads, plane_stage},
                            earlier ? &*earlier : nullptr, image, tolerance, writer, statistics);
   }

@@ -1,7 +1,5 @@
 #include "codec/plane_section.h"
 
-#include <algorithm>
-
 #include "base/simd_loops.h"
 #include "codec/sections.h"
 #include "planes/plane_choice.h"
@@ -22,28 +20,36 @@ double plane_step_m(const PlaneSetting& setting) {
   return 0.5 * setting.max_error_m;
 }
 
-POINTREEL_SIMD_LOOPS void count_cells(const GridImage& image, const PlaneTiles& planes,
-                                      FrameStatistics& statistics) {
+struct CellCounts {
+  std::uint32_t on_planes = 0, on_none = 0;
+};
+
+// Of those with a return, by whether a plane says where.
+POINTREEL_SIMD_LOOPS CellCounts count_cells(const float* range_m, const float* on_plane_m,
+                                            std::size_t cells) {
+  CellCounts counts;
+  for (std::size_t cell = 0; cell < cells; ++cell) {
+    const std::uint32_t returns = range_m[cell] > 0 ? 1 : 0, on_plane = on_plane_m[cell] > 0 ? 1 : 0;
+    counts.on_planes += returns & on_plane;
+    counts.on_none += returns & (on_plane ^ 1);
+  }
+  return counts;
+}
+
+std::uint32_t cells_on_reused(const GridImage& image, const PlaneTiles& planes) {
   const TileGrid& tiles = planes.tiles;
-  for (int row = 0; row < image.rows; ++row) {
-    const float* range_m = &image.range_m[image.index(row, 0)];
+  std::uint32_t cells = 0;
+  for (int tile_row = 0; tile_row < tiles.down; ++tile_row) {
     for (int tile = 0; tile < tiles.across; ++tile) {
-      const int first = TileGrid::first_column(tile), end = tiles.end_column(tile);
-      std::uint32_t returns = 0;
-      if (end - first == kTileColumns) {
-        for (int c = 0; c < kTileColumns; ++c) returns += range_m[first + c] > 0 ? 1 : 0;
-      } else {
-        for (int c = first; c < end; ++c) returns += range_m[c] > 0 ? 1 : 0;
+      const std::int32_t plane = planes.plane_of_tile[tiles.index(tile_row, tile)];
+      if (plane < 0 || !planes.planes[static_cast<std::size_t>(plane)].reused) continue;
+      for (int row = TileGrid::first_row(tile_row); row < tiles.end_row(tile_row); ++row) {
+        for (int column = TileGrid::first_column(tile); column < tiles.end_column(tile); ++column)
+          cells += image.range_m[image.index(row, column)] > 0 ? 1 : 0;
       }
-      const std::int32_t plane = planes.plane_of_tile[tiles.index(row / kTileRows, tile)];
-      if (plane < 0)
-        statistics.unfit_cells += returns;
-      else if (planes.planes[static_cast<std::size_t>(plane)].reused)
-        statistics.temporal_cells += returns;
-      else
-        statistics.spatial_cells += returns;
     }
   }
+  return cells;
 }
 
 }  // namespace
@@ -68,7 +74,11 @@ PlaneSection encode_planes(const PlaneSetting& setting, const EarlierPlanes* ear
   section.range_m = ranges_on_planes_m(rays, section.tiles, setting.threads);
   statistics.plane_bits += bits_of(bytes.size());
   statistics.runs += static_cast<std::uint32_t>(section.tiles.planes.size());
-  count_cells(image, section.tiles, statistics);
+  const CellCounts counts = count_cells(image.range_m.data(), section.range_m.data(), image.range_m.size());
+  const std::uint32_t reused = cells_on_reused(image, section.tiles);
+  statistics.unfit_cells += counts.on_none;
+  statistics.temporal_cells += reused;
+  statistics.spatial_cells += counts.on_planes - reused;
   return section;
 }
 

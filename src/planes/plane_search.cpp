@@ -21,6 +21,7 @@ class Search {
   PlaneTiles run() {
     for (int tile_row = 0; tile_row < tiles().down; ++tile_row) {
       for (int tile = 0; tile < tiles().across; ++tile) {
+        if (samples_.bends(tile_row, tile)) continue;
         std::int32_t* plane = &planes_.plane_of_tile[tiles().index(tile_row, tile)];
         *plane = known_plane(tile_row, tile);
         if (*plane >= 0 || !may_begin(tile_row, tile)) continue;

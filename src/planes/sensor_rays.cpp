@@ -3,9 +3,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/simd_loops.h"
 #include "base/trigonometry.h"
 
 namespace pointreel {
+namespace {
+
+POINTREEL_SIMD_LOOPS void met_ranges_m(const SensorRays::RowPlane& plane, const float* cosine,
+                                       const float* sine, std::span<float> range_m) {
+  constexpr float kLeastM = 1e-3F, kMostM = 2e5F;
+  const SensorRays::RowPlane at = plane;
+  float* to_m = range_m.data();
+  for (std::size_t c = 0, columns = range_m.size(); c < columns; ++c) {
+    const float rho_m = at.numerator(cosine[c], sine[c]) / at.denominator(cosine[c], sine[c]);
+    const float met_m = rho_m * at.range_per_rho;
+    const float in_front_m = met_m > kLeastM ? met_m : kLeastM;  // NaN, too
+    to_m[c] = in_front_m < kMostM ? in_front_m : kMostM;
+  }
+}
+
+}  // namespace
 
 SensorRays::SensorRays(const SensorModel& model, const SweepGrid& grid,
                        std::span<const std::size_t> shift_of_row)
@@ -34,16 +51,7 @@ SensorRays::SensorRays(const SensorModel& model, const SweepGrid& grid,
 }
 
 void SensorRays::plane_ranges_m(const Plane& plane, int row, int first, std::span<float> range_m) const {
-  constexpr float kLeastM = 1e-3F, kMostM = 2e5F;
-  const RowPlane at = row_plane(plane, row);
-  const float* cosine = cos_of_row(row) + first;
-  const float* sine = sin_of_row(row) + first;
-  for (std::size_t c = 0; c < range_m.size(); ++c) {
-    const float rho_m = at.numerator(cosine[c], sine[c]) / at.denominator(cosine[c], sine[c]);
-    const float met_m = rho_m * at.range_per_rho;
-    const float in_front_m = met_m > kLeastM ? met_m : kLeastM;  // NaN, too
-    range_m[c] = in_front_m < kMostM ? in_front_m : kMostM;
-  }
+  met_ranges_m(row_plane(plane, row), cos_of_row(row) + first, sin_of_row(row) + first, range_m);
 }
 
 SensorRays::Direction SensorRays::direction(int row, int column) const {

@@ -4,20 +4,23 @@
 #include <cmath>
 
 #include "base/simd_loops.h"
+#include "base/trigonometry.h"
 
 namespace pointreel {
 
 TileSamples::TileSamples(const PlaneTask& task)
     : rays_(task.rays), tiles_(task.rays.rows(), task.rays.columns()) {
-  constexpr float kAnyM = 1e30F;
   // Of the range: what is left of the tolerance after its rounding to float32, which the test has, too.
   constexpr float kRounding = 5e-7F;
-  const std::size_t padded = first_cell(tiles_.rows);
-  rho_m_.resize(padded);
-  tolerance_m_.resize(padded);
+  const std::size_t padded = first_cell(tiles_.rows), read = padded + kCellsBeyond;
+  rho_m_.resize(read);
+  tolerance_m_.resize(read);
+  per_rho_m_.resize(read);
   has_moments_.resize(tiles_.count());
   moments_.resize(tiles_.count());
   const auto columns = static_cast<std::size_t>(tiles_.columns);
+  const double half_tile_rad = kTileColumns / 2 * kTurn / tiles_.columns;
+  curvature_ = static_cast<float>(half_tile_rad * half_tile_rad);
   for (int row = 0; row < tiles_.rows; ++row) {
     const std::size_t from = static_cast<std::size_t>(row) * columns, to = first_cell(row);
     const auto rho_per_range = static_cast<float>(1 / rays_.row(row).range_per_rho);
@@ -25,11 +28,14 @@ TileSamples::TileSamples(const PlaneTask& task)
       const float range_m = task.range_m[from + c];
       const float left_m = task.tolerance_m[from + c] - range_m * kRounding;
       rho_m_[to + c] = range_m * rho_per_range;
-      tolerance_m_[to + c] = range_m > 0 ? left_m * rho_per_range : kAnyM;
+      tolerance_m_[to + c] = range_m > 0 ? left_m * rho_per_range : kAnyTolerance;
+      per_rho_m_[to + c] = range_m > 0 ? 1 / rho_m_[to + c] : 1;
     }
-    for (std::size_t c = to + columns; c < first_cell(row + 1); ++c) {
+    const std::size_t end = row + 1 < tiles_.rows ? first_cell(row + 1) : read;
+    for (std::size_t c = to + columns; c < end; ++c) {
       rho_m_[c] = 0;
-      tolerance_m_[c] = kAnyM;
+      tolerance_m_[c] = kAnyTolerance;
+      per_rho_m_[c] = 1;
     }
   }
 }
@@ -46,28 +52,6 @@ int TileSamples::returns(int tile_row, int tile) const {
 static_assert(SensorRays::kColumnsMore >= kTileColumns, "the last tile may reach beyond the last column");
 
 struct TileSamples::Loops {
-  POINTREEL_SIMD_LOOPS static bool holds(const PlaneTest& test, int tile) {
-    // Without a branch for single rows: column by column, whether any return lies outside.
-    std::array<std::int32_t, kTileColumns> outside{};
-    for (std::size_t r = 0; r < test.count_; ++r) {
-      const SensorRays::RowPlane at = test.rows_[r].plane;
-      const std::size_t column = static_cast<std::size_t>(tile) * kTileColumns;
-      const std::size_t first = test.rows_[r].first_cell + column;
-      const float* cosine = test.rows_[r].cosine + column;
-      const float* sine = test.rows_[r].sine + column;
-      const float* rho_m = &test.samples_->rho_m_[first];
-      const float* tolerance_m = &test.samples_->tolerance_m_[first];
-      for (std::size_t c = 0; c < kTileColumns; ++c) {
-        const float denominator = at.denominator(cosine[c], sine[c]);
-        const float off = std::fabs(at.numerator(cosine[c], sine[c]) - rho_m[c] * denominator);
-        outside[c] |= off <= tolerance_m[c] * denominator ? 0 : 1;
-      }
-    }
-    std::int32_t any = 0;
-    for (const std::int32_t column : outside) any |= column;
-    return any == 0;
-  }
-
   POINTREEL_SIMD_LOOPS static PlaneMoments sum(const TileSamples& samples, int tile_row, int tile) {
     using First = PlaneMomentLanes::First;
     PlaneMomentLanes sums;
@@ -96,8 +80,12 @@ struct TileSamples::Loops {
   }
 };
 
-bool TileSamples::PlaneTest::holds(int tile) const {
-  return Loops::holds(*this, tile);
+bool TileSamples::bends(int tile_row, int tile) const {
+  std::array<RowCells, kTileRows> rows;
+  std::size_t count = 0;
+  for (int row = TileGrid::first_row(tile_row); row < tiles_.end_row(tile_row); ++row)
+    rows[count++] = cells(row);
+  return tile_bends(std::span(rows).first(count), static_cast<std::size_t>(tile) * kTileColumns, curvature_);
 }
 
 bool TileSamples::PlaneTest::holds(int first, int end) const {

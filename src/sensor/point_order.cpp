@@ -4,6 +4,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/first_where.h"
 #include "base/parallel.h"
 #include "base/simd_loops.h"
 #include "sensor/order_moves.h"
@@ -193,13 +194,16 @@ std::vector<std::int32_t> firing_places_of(const SensorModel& model, const Sweep
 }
 
 std::vector<std::uint32_t> cells_of_points(const GriddedSweep& sweep) {
-  std::vector<std::uint32_t> cells(sweep.cell_of_point.size() + 1);
-  std::size_t count = 0;
-  for (const std::int32_t cell : sweep.cell_of_point) {
-    cells[count] = static_cast<std::uint32_t>(cell);
-    count += cell >= 0 ? 1 : 0;
+  const std::int32_t* cell = sweep.cell_of_point.data();
+  const std::size_t points = sweep.cell_of_point.size();
+  const auto is_stray = [=](std::size_t i) { return static_cast<int>(cell[i] < 0); };
+  std::vector<std::uint32_t> cells;
+  cells.reserve(points);
+  for (std::size_t first = 0; first < points;) {  // from one stray to the next
+    const std::size_t end = first_where(first, points, is_stray);
+    cells.insert(cells.end(), cell + first, cell + end);
+    first = end + 1;
   }
-  cells.resize(count);
   return cells;
 }
 
