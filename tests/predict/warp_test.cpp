@@ -7,13 +7,12 @@
 #include <cmath>
 #include <limits>
 
+#include "base/trigonometry.h"
 #include "predict/coding_grid.h"
 #include "sensor/ray_table.h"
 
 namespace pointreel {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 SensorModel sensor(int rows) {
   SensorModel model;
