@@ -9,6 +9,7 @@
 #endif
 
 #include <cstddef>
+#include <cstdint>
 
 #include "hwy/highway.h"
 
@@ -144,6 +145,16 @@ POINTREEL_INLINE bool any(const Mask<N>& mask) {
   for (std::size_t i = 0; i < Floats<N>::kParts; ++i)
     none = none && hn::AllFalse(typename Floats<N>::Tag(), mask.part[i]);
   return !none;
+}
+// A bit a lane, the first in bit 0.
+POINTREEL_INLINE std::uint32_t lane_bits(const Mask<8>& mask) {
+  std::uint32_t bits = 0;
+  for (std::size_t i = 0; i < Float8::kParts; ++i) {
+    std::uint8_t of_part[8] = {};
+    hn::StoreMaskBits(Float8::Tag(), mask.part[i], of_part);
+    bits |= std::uint32_t{of_part[0]} << (i * Float8::kPartLanes);
+  }
+  return bits;
 }
 template <std::size_t N>
 POINTREEL_INLINE Floats<N> select(const Mask<N>& mask, const Floats<N>& yes, const Floats<N>& no) {

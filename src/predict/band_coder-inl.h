@@ -9,17 +9,28 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <type_traits>
 
 #include "predict/band_coding.h"
 #include "predict/fast_range_model-inl.h"
 #include "predict/hit_mask-inl.h"
+#include "predict/known_ranges-inl.h"
 #include "predict/range_model-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pointreel {
 namespace HWY_NAMESPACE {
+
+// The first of rows, a bit each, and the others.
+POINTREEL_INLINE int first_of(std::uint32_t rows) {
+  return std::countr_zero(rows);
+}
+POINTREEL_INLINE std::uint32_t without_first(std::uint32_t rows) {
+  return rows & (rows - 1);
+}
 
 // False when a decoder runs out of bytes. Two streams, each predicted from what both hold before the cell.
 template <Effort kEffort, bool kPredicted, class Coder>
@@ -28,10 +39,10 @@ bool code_band(Coder& mask_coder, Coder& range_coder, const BandSetting& setting
   constexpr int kRows = Wavefront::kRows, kLag = Wavefront::kLag;
   const RangeQuantiser& quantiser = setting.quantiser;
   const int columns = image.columns;
-  const float* known_m = setting.known_range_m.empty() ? nullptr : setting.known_range_m.data();
   HitMaskModel<kEffort, kPredicted> mask(columns, state.mask);
   using Ranges = std::conditional_t<kEffort == Effort::fast, FastRangeModel, RangeModel<kEffort, kPredicted>>;
   Ranges ranges(columns, setting, state);
+  KnownRanges known(columns, setting.known_range_m);
   ReferencePlanes reference(kPredicted ? columns : 0);
   for (int first = 0; first < band.rows; first += kRows) {
     const int rows = std::min(kRows, band.rows - first);
@@ -48,52 +59,48 @@ bool code_band(Coder& mask_coder, Coder& range_coder, const BandSetting& setting
     }
     mask.start_block();
     ranges.start_block(phase_m);
+    if (known.any()) known.load_block(band.first_row + first, rows);
     if constexpr (kPredicted) reference.load_block(*setting.reference, band.first_row + first);
     for (int step = 0; step < Wavefront::steps(columns); ++step) {
       mask.start_step();
       ranges.start_step();
       const int first_row = std::max(0, (step - columns) / kLag + (step >= columns ? 1 : 0));
       const int end_row = std::min(rows, step / kLag + 1);
-      int hit_rows[kRows];
-      std::size_t hits = 0;
       const auto range_of = [&](int row) HWY_ATTR -> float& {
         return image.range_m[static_cast<std::size_t>(row_start[static_cast<std::size_t>(row)] + step)];
-      };
-      const auto take_hit = [&](int row) HWY_ATTR {
-        hit_rows[hits] = row;
-        const auto cell = static_cast<std::size_t>(row);
-        const float known_range_m =
-            known_m != nullptr ? known_m[static_cast<std::size_t>(row_start[cell] + step)] : 0;
-        if (known_range_m > 0) {
-          range_of(row) = ranges.take_known(cell, known_range_m);
-        } else {
-          ++hits;
-        }
       };
       const auto are_hits = [&]() HWY_ATTR {
         bool all = true;
         for (int row = 0; row < kRows; ++row) all = all & (range_of(row) > 0);
         return all;
       };
+      std::uint32_t hits = 0;  // a bit a row
       if (kEffort != Effort::max && end_row - first_row == kRows && mask.are_sure(step, &reference) &&
           mask.code_together(mask_coder, !Coder::kDecodes && are_hits())) {
-        for (int row = 0; row < kRows; ++row) take_hit(row);
+        hits = (1U << kRows) - 1;
       } else {
         mask.predict(step, &reference);
         for (int row = first_row; row < end_row; ++row) {
           if (mask.code(mask_coder, static_cast<std::size_t>(row), first + row, range_of(row) > 0))
-            take_hit(row);
+            hits |= 1U << row;
         }
       }
-      if (hits > 0) ranges.predict(step, &reference);
-      for (std::size_t i = 0; i < hits; ++i)
-        ranges.start(static_cast<std::size_t>(hit_rows[i]), first + hit_rows[i]);
-      for (std::size_t i = 0; i < hits; ++i) {
-        const int row = hit_rows[i];
+      if (const std::uint32_t cells = known.any() ? hits & known.cells(step) : 0; cells != 0) {
+        ranges.take_known(known.at(step), cells);
+        for (std::uint32_t left = cells; left != 0; left = without_first(left))
+          range_of(first_of(left)) = known.at(step, first_of(left));
+        hits &= ~cells;
+      }
+      if (hits != 0) ranges.predict(step, &reference);
+      for (std::uint32_t left = hits; left != 0; left = without_first(left))
+        ranges.start(static_cast<std::size_t>(first_of(left)), first + first_of(left));
+      for (std::uint32_t left = hits; left != 0; left = without_first(left)) {
+        const int row = first_of(left);
         float& range_m = range_of(row);
         range_m = ranges.code(range_coder, static_cast<std::size_t>(row), first + row, range_m);
       }
-      for (std::size_t i = 0; i < hits; ++i) ranges.learn(static_cast<std::size_t>(hit_rows[i]));
+      for (std::uint32_t left = hits; left != 0; left = without_first(left))
+        ranges.learn(static_cast<std::size_t>(first_of(left)));
       ranges.remember(step);
       mask.remember(step, ranges.decoded_m());
       if constexpr (Coder::kDecodes) {

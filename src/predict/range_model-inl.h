@@ -72,9 +72,9 @@ class RangeModel {
     coded_.proposed = true;
   }
 
-  // One of them holds a return whose range both sides know.
-  POINTREEL_INLINE float take_known(std::size_t cell, float range_m) {
-    return coded_.set_decoded(cell, range_m);
+  // Those of them that hold a return whose range both sides know; before any is coded.
+  POINTREEL_INLINE void take_known(const Float8& range_m, std::uint32_t cells) {
+    coded_.decoded_m = where(as_float_mask(bits_by_lane(cells) > all_ints<8>(0)), range_m);
   }
 
   // Looks at one of them that holds a return: before any of them is coded. `row`: in the band.
