@@ -21,7 +21,7 @@ namespace {
 //   deviation h / rho            the ray's turn by the side offset h: along it, a point moves across, too,
 //   away (h / rho)^2             and farther than its range does
 // the first two once more since deviations are measured at the point's own rho, and for roundings, which turn
-// points by 1e-6 at most.
+// points by less than 2e-6.
 class QuickCheck {
  public:
   static constexpr std::size_t kBlock = 256;

@@ -36,7 +36,7 @@ class SensorRays {
   };
   const Row& row(int row) const { return rows_[static_cast<std::size_t>(row)]; }
   // Of the column azimuths, by image column; those of a whole row, and of kColumnsMore, lie side by side.
-  static constexpr std::size_t kColumnsMore = 8;
+  static constexpr std::size_t kColumnsMore = 16;
   const float* cos_of_row(int row) const { return &cos_[this->row(row).first]; }
   const float* sin_of_row(int row) const { return &sin_[this->row(row).first]; }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/simd_loops.h"
-#include "base/trigonometry.h"
 
 namespace pointreel {
 
@@ -19,8 +18,6 @@ TileSamples::TileSamples(const PlaneTask& task)
   has_moments_.resize(tiles_.count());
   moments_.resize(tiles_.count());
   const auto columns = static_cast<std::size_t>(tiles_.columns);
-  const double half_tile_rad = kTileColumns / 2 * kTurn / tiles_.columns;
-  curvature_ = static_cast<float>(half_tile_rad * half_tile_rad);
   for (int row = 0; row < tiles_.rows; ++row) {
     const std::size_t from = static_cast<std::size_t>(row) * columns, to = first_cell(row);
     const auto rho_per_range = static_cast<float>(1 / rays_.row(row).range_per_rho);
@@ -85,7 +82,7 @@ bool TileSamples::bends(int tile_row, int tile) const {
   std::size_t count = 0;
   for (int row = TileGrid::first_row(tile_row); row < tiles_.end_row(tile_row); ++row)
     rows[count++] = cells(row);
-  return tile_bends(std::span(rows).first(count), static_cast<std::size_t>(tile) * kTileColumns, curvature_);
+  return tile_bends(std::span(rows).first(count), static_cast<std::size_t>(tile) * kTileColumns);
 }
 
 bool TileSamples::PlaneTest::holds(int first, int end) const {

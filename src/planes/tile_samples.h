@@ -20,7 +20,7 @@ class TileSamples {
 
   const TileGrid& tiles() const { return tiles_; }
   int returns(int tile_row, int tile) const;
-  // No plane holds all returns of the tile: along a row they bend more than their tolerances explain.
+  // No plane holds the tile: along a row its returns bend more than their tolerances explain.
   bool bends(int tile_row, int tile) const;
   // Of the returns of a tile, summed when first asked for.
   const PlaneMoments& moments(int tile_row, int tile);
@@ -31,8 +31,7 @@ class TileSamples {
     PlaneTest(const TileSamples& samples, const Plane& plane, int tile_row) {
       const int end = samples.tiles_.end_row(tile_row);
       for (int row = TileGrid::first_row(tile_row); row < end; ++row)
-        rows_[count_++] = {samples.rays_.row_plane(plane, row), samples.rays_.cos_of_row(row),
-                           samples.rays_.sin_of_row(row), samples.cells(row)};
+        rows_[count_++] = {samples.rays_.row_plane(plane, row), samples.cells(row)};
     }
     // All returns of the tile are within their tolerances.
     bool holds(int tile) const {
@@ -56,12 +55,12 @@ class TileSamples {
 
   RowCells cells(int row) const {
     const std::size_t first = first_cell(row);
-    return {&rho_m_[first], &tolerance_m_[first], &per_rho_m_[first]};
+    return {rays_.cos_of_row(row), rays_.sin_of_row(row), &rho_m_[first], &tolerance_m_[first],
+            &per_rho_m_[first]};
   }
 
   const SensorRays& rays_;
   TileGrid tiles_;
-  float curvature_;                                   // of sines, over a tile
   RawVector<float> rho_m_, tolerance_m_, per_rho_m_;  // horizontal; RowCells
   std::vector<std::uint8_t> has_moments_;
   RawVector<PlaneMoments> moments_;

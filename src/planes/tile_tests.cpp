@@ -20,8 +20,8 @@ bool tile_holds(std::span<const PlaneInRow> rows, std::size_t column) {
   return HWY_DYNAMIC_DISPATCH(tile_holds)(rows, column);
 }
 
-bool tile_bends(std::span<const RowCells> rows, std::size_t column, float curvature) {
-  return HWY_DYNAMIC_DISPATCH(tile_bends)(rows, column, curvature);
+bool tile_bends(std::span<const RowCells> rows, std::size_t column) {
+  return HWY_DYNAMIC_DISPATCH(tile_bends)(rows, column);
 }
 
 }  // namespace pointreel

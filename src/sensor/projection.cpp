@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "base/parallel.h"
@@ -15,7 +16,6 @@
 #include "sensor/ray_table.h"
 #include "sensor/row_assignment.h"
 #include "sensor/row_values.h"
-#include "sensor/side_turn.h"
 #include "sensor/twist_fit.h"
 
 namespace pointreel {
@@ -35,23 +35,20 @@ class Measurement {
       : columns_(columns),
         most_m_(static_cast<float>(max_deviation_m)),
         slopes_(model, &RowModel::slope),
-        offsets_m_(model, &RowModel::offset_m),
-        alphas_rad_(model, &RowModel::azimuth_rad),
-        sides_m_(model, &RowModel::side_offset_m) {
+        offsets_m_(model, &RowModel::offset_m) {
     const double rad_per_tick = kTurn / columns.ticks_per_turn;
-    for (const std::uint32_t tick : columns.tick) {
-      const double rad = tick % columns.ticks_per_turn * rad_per_tick;
-      column_rad_.push_back(static_cast<float>(rad > kTurn / 2 ? rad - kTurn : rad));
-    }
+    for (const std::uint32_t tick : columns.tick)
+      column_rad_.push_back(static_cast<float>(tick * rad_per_tick));
     if (column_rad_.empty()) column_rad_.push_back(0);  // looked at for strays
   }
 
+  // `azimuths_rad`: those of the points' columns (columns.h).
   POINTREEL_SIMD_LOOPS void of_block(const PointCloud& cloud, const PolarPoints& polar,
+                                     std::span<const float> azimuths_rad,
                                      const std::vector<std::int16_t>& rows, std::size_t first,
                                      std::size_t count, GriddedSweep& sweep) const {
-    // Floats: azimuths within half a turn are off by 3e-7, which is 0.03 mm 100 m away.
-    float slope[kBlock], offset_m[kBlock], alpha_rad[kBlock], side_m[kBlock], phi_rad[kBlock],
-        side_rad[kBlock], vertical_m[kBlock], squared_m2[kBlock];
+    // Floats: azimuths are off by less than 2e-6, which is 0.1 mm 50 m away.
+    float slope[kBlock], offset_m[kBlock], column_azimuth_rad[kBlock], vertical_m[kBlock], squared_m2[kBlock];
     std::int32_t cell[kBlock];
     const auto column_count = static_cast<std::int32_t>(columns_.tick.size());
     const std::int16_t* row = &rows[first];
@@ -59,30 +56,29 @@ class Measurement {
     const RowBlock block(row, count);
     block.spread(slopes_, slope);
     block.spread(offsets_m_, offset_m);
-    block.spread(alphas_rad_, alpha_rad);
-    block.spread(sides_m_, side_m);
     const float* column_rad = column_rad_.data();
     for (std::size_t k = 0; k < count; ++k) {
-      phi_rad[k] = column_rad[column[k] < 0 ? 0 : column[k]];
+      column_azimuth_rad[k] = column_rad[column[k] < 0 ? 0 : column[k]];
       cell[k] = (row[k] | column[k]) < 0 ? -1 : row[k] * column_count + column[k];
     }
     const float* rho_m = &polar.rho_m[first];
     const float* z_m = &polar.z_m[first];
-    const float* azimuth_rad = &polar.azimuth_rad[first];
+    const float* azimuth_rad = &azimuths_rad[first];
     float* range_m = &sweep.range_m[first];
     float* deviation_m = &sweep.deviation_m[first];
     const float most_m2 = most_m_ * most_m_;
     constexpr auto kTurnF = static_cast<float>(kTurn);
-    side_turns(side_m, rho_m, count, side_rad);
     for (std::size_t k = 0; k < count; ++k) {
       const float above = z_m[k] - offset_m[k];
       const float cosine = 1 / std::sqrt(1 + slope[k] * slope[k]);
       vertical_m[k] = (above - slope[k] * rho_m[k]) * cosine;
       range_m[k] = (rho_m[k] + slope[k] * above) * cosine;
-      float turn = (azimuth_rad[k] - alpha_rad[k]) - phi_rad[k];  // rows are within half a turn, too
-      turn += turn < -kTurnF / 2 ? kTurnF : 0;
-      turn -= turn > kTurnF / 2 ? kTurnF : 0;
-      const float across = rho_m[k] * (turn - side_rad[k]);
+      float turn = azimuth_rad[k] - column_azimuth_rad[k];  // within two turns
+      for (int again = 0; again < 2; ++again) {
+        turn += turn < -kTurnF / 2 ? kTurnF : 0;
+        turn -= turn > kTurnF / 2 ? kTurnF : 0;
+      }
+      const float across = rho_m[k] * turn;
       squared_m2[k] = across * across + vertical_m[k] * vertical_m[k];
       deviation_m[k] = std::sqrt(squared_m2[k]);
     }
@@ -111,17 +107,18 @@ class Measurement {
  private:
   const SweepColumns& columns_;
   float most_m_;
-  RowValues slopes_, offsets_m_, alphas_rad_, sides_m_;
-  std::vector<float> column_rad_;  // within half a turn
+  RowValues slopes_, offsets_m_;
+  std::vector<float> column_rad_;
 };
 
 void measure(const SensorModel& model, const PointCloud& cloud, const PolarPoints& polar,
-             const std::vector<std::int16_t>& rows, const SweepColumns& columns, const GridOptions& options,
-             GriddedSweep& sweep) {
+             std::span<const float> azimuths_rad, const std::vector<std::int16_t>& rows,
+             const SweepColumns& columns, const GridOptions& options, GriddedSweep& sweep) {
   const Measurement measurement(model, columns, options.max_deviation_m);
   for_each_piece(polar.size(), options.threads, [&](std::size_t, std::size_t piece_first, std::size_t last) {
     for (std::size_t first = piece_first; first < last; first += Measurement::kBlock)
-      measurement.of_block(cloud, polar, rows, first, std::min(Measurement::kBlock, last - first), sweep);
+      measurement.of_block(cloud, polar, azimuths_rad, rows, first,
+                           std::min(Measurement::kBlock, last - first), sweep);
   });
 }
 
@@ -199,7 +196,7 @@ GriddedSweep project(const SensorModel& model, const PointCloud& cloud, const Gr
       find_columns(model, polar, rows, azimuths, firing_descending.has_value(), options);
   sweep.grid.ticks_per_turn = columns.ticks_per_turn;
   sweep.grid.column_tick = columns.tick;
-  measure(model, cloud, polar, rows, columns, options, sweep);
+  measure(model, cloud, polar, azimuths, rows, columns, options, sweep);
   if (sweep.grid.motion) check_compensation(model, cloud, polar, options, sweep);
   resolve_collisions(model.rows.size() * columns.tick.size(), sweep);
   sweep.grid.order = same_order(previous, sweep.grid, firing_descending)
