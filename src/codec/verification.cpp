@@ -38,7 +38,7 @@ class QuickCheck {
 
   // Of `count` points, at most kBlock: 1 for those that are to be looked at. False if there are none.
   POINTREEL_SIMD_LOOPS bool find_unsure(std::size_t first, std::size_t count, std::int32_t* unsure) const {
-    constexpr float kRounding = 2e-6F, kLeastM = 1e-3F;
+    constexpr float kRounding = 3e-6F, kLeastM = 1e-3F;
     const std::int32_t* cells = &sweep_.cell_of_point[first];
     const float* ranges_m = &sweep_.range_m[first];
     const float* deviations_m = &sweep_.deviation_m[first];
@@ -52,7 +52,7 @@ class QuickCheck {
       const float per_rho_m = range_per_rho_ / (nearer_m > kLeastM ? nearer_m : kLeastM);
       const float slack_m =
           (2 * deviation_m * (side_m_ + deviation_m) + away_m * (side_m_ * side_m_) * per_rho_m) * per_rho_m +
-          kRounding * (ranges_m[k] + offset_m_);
+          kRounding * (ranges_m[k] + offset_m_ + max_error_m_);
       const float left_m = max_error_m_ - slack_m > 0 ? max_error_m_ - slack_m : 0.0F;
       const bool sure = deviation_m * deviation_m + away_m * away_m < left_m * left_m;
       unsure[k] = cells[k] < 0 || sure ? 0 : 1;

@@ -1,7 +1,6 @@
 #include "planes/tile_samples.h"
 
 #include <array>
-#include <cmath>
 
 #include "base/simd_loops.h"
 

@@ -40,7 +40,7 @@ class TileSamples {
     bool holds(int first, int end) const;
 
    private:
-    std::array<PlaneInRow, kTileRows> rows_;
+    std::array<PlaneInRow, kTileRows> rows_{};
     std::size_t count_ = 0;
   };
 

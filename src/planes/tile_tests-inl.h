@@ -50,8 +50,8 @@ POINTREEL_INLINE Float8 sine_between(const RowPart& from, const RowPart& to) {
 
 // Along a row, 1 / rho of a plane is a sine of the azimuth, of which three cells tell
 //   sin(a2 - a0) u1 = sin(a2 - a1) u0 + sin(a1 - a0) u2
-// but for the constant n_z slope, for side offsets, and for roundings of the sines. (Every other cell tells:
-// those side by side, or three apart, find hardly a tile more.)
+// but for the constant n_z slope (here for slopes of up to 0.5), for side offsets, and for roundings of the
+// sines. (Every other cell tells: those side by side, or three apart, find hardly a tile more.)
 inline bool tile_bends(std::span<const RowCells> rows, std::size_t column) {
   constexpr std::size_t kApart = 2;
   constexpr float kMostConstant = 0.5F, kMostSideOffset = 0.05F;  // times 1 / m: of planes from 1 m on

@@ -60,6 +60,11 @@ struct CodedRanges {
     coded_steps = all_ints<8>(0);
   }
 
+  // Of the cells whose range both sides know, a bit each; before the others.
+  POINTREEL_INLINE void take_known(const Float8& range_m, std::uint32_t cells) {
+    decoded_m = where(as_float_mask(bits_by_lane(cells) > all_ints<8>(0)), range_m);
+  }
+
   // Where the bins around a proposal of the cell have their origin.
   POINTREEL_INLINE float quantised(float range_m, std::size_t cell) const {
     return on_lattice ? nearest_on_lattice(range_m, step_m, lattice_phase_m[cell]) : range_m;

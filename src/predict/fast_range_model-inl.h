@@ -77,7 +77,7 @@ class FastRangeModel {
 
   // Those of them that hold a return whose range both sides know; before any is coded.
   POINTREEL_INLINE void take_known(const Float8& range_m, std::uint32_t cells) {
-    coded_.decoded_m = where(as_float_mask(bits_by_lane(cells) > all_ints<8>(0)), range_m);
+    coded_.take_known(range_m, cells);
   }
 
   // (Nothing of one cell waits for another.)

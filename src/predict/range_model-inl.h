@@ -74,7 +74,7 @@ class RangeModel {
 
   // Those of them that hold a return whose range both sides know; before any is coded.
   POINTREEL_INLINE void take_known(const Float8& range_m, std::uint32_t cells) {
-    coded_.decoded_m = where(as_float_mask(bits_by_lane(cells) > all_ints<8>(0)), range_m);
+    coded_.take_known(range_m, cells);
   }
 
   // Looks at one of them that holds a return: before any of them is coded. `row`: in the band.

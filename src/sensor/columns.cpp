@@ -263,7 +263,6 @@ POINTREEL_SIMD_LOOPS void fill_azimuths(const SensorModel& model, const PolarPoi
 RawVector<float> column_azimuths(const SensorModel& model, const PolarPoints& polar,
                                  const std::vector<std::int16_t>& rows, int threads) {
   RawVector<float> azimuths(polar.size());
-  if (model.rows.empty()) return azimuths;
   for_each_piece(polar.size(), threads, [&](std::size_t, std::size_t first, std::size_t last) {
     fill_azimuths(model, polar, rows, first, last, azimuths);
   });

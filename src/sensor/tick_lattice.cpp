@@ -9,8 +9,6 @@
 #include "sensor/phase_bank.h"
 
 namespace pointreel {
-namespace {}  // namespace
-
 std::uint32_t find_ticks_per_turn(const PolarPoints& polar, const RowPoints& rows) {
   constexpr std::size_t kPairs = 1500;
   constexpr std::uint32_t kFewest = 90;

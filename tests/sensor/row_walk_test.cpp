@@ -4,6 +4,8 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -62,6 +64,33 @@ std::vector<std::uint32_t> by_definition(const TwoRows& sweep, std::uint32_t row
   std::vector<std::uint32_t> result;
   for (const auto& [place, cell] : cells) result.push_back(cell);
   return result;
+}
+
+double turns_by_side(float side_m, float rho_m) {
+  return turned_by_side(side_m, rho_m) / kWholeTurn;
+}
+
+TEST(RowWalk, TheSideOffsetTurnsByItsArcTangent) {
+  for (const float side_m : {0.0F, 0.026F, -0.026F, 0.3F}) {
+    for (float rho_m = 4 * std::fabs(side_m) + 0.01F; rho_m < 300; rho_m *= 1.3F) {
+      const double turned = std::atan2(side_m, rho_m) / kTurn;
+      const double series = std::pow(side_m / rho_m, 7) / 7;  // what is left out
+      EXPECT_NEAR(turns_by_side(side_m, rho_m), turned, 1e-7 * std::fabs(turned) + std::fabs(series) + 1e-9)
+          << side_m << ' ' << rho_m;
+    }
+  }
+}
+
+TEST(RowWalk, AnyRangeTurnsByLessThanAQuarter) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  for (const float side_m : {0.026F, -4.0F}) {
+    for (const float rho_m :
+         {0.0F, -1.0F, -kInfinity, 1e-30F, 1e30F, kInfinity, std::numeric_limits<float>::quiet_NaN()}) {
+      EXPECT_LT(std::fabs(turns_by_side(side_m, rho_m)), 0.14) << rho_m;
+    }
+    EXPECT_EQ(turns_by_side(side_m, kInfinity), 0);
+  }
+  EXPECT_EQ(turns_by_side(0, 0), 0);
 }
 
 RC_GTEST_PROP(RowWalk, PassesTheReturnsByAzimuthFromTheSeam, ()) {
