@@ -27,8 +27,8 @@ struct PlaneInRow {
 // Whether all returns of the tile that begins in `column` meet the plane within their tolerances.
 bool tile_holds(std::span<const PlaneInRow> rows, std::size_t column);
 
-// Whether no plane can: the tile's ranges bend more along a row than their tolerances explain. For planes from
-// 1 m on, slopes of up to 0.5, side offsets of 5 cm and tolerances of half the range; beyond, some may.
+// Whether no plane can: the tile's ranges bend more along a row than their tolerances explain. For planes
+// from 1 m on, slopes of up to 0.5, side offsets of 5 cm and tolerances of half the range; beyond, some may.
 bool tile_bends(std::span<const RowCells> rows, std::size_t column);
 
 }  // namespace pointreel

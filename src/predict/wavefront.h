@@ -49,8 +49,8 @@ class SkewedPlane {
                                              kRowsAbove + row)];
   }
 
-  // After the values of a step are stored: those of the last rows are also the ones above the next block, where
-  // they stand a block's rows further back in the wavefront, which this block has left behind.
+  // After the values of a step are stored: those of the last rows are also the ones above the next block,
+  // where they stand a block's rows further back in the wavefront, which this block has left behind.
   void keep_for_next_block(int step) {
     const T* from = at(step) + Wavefront::kRows - kRowsAbove;
     T* to = &values_[static_cast<std::size_t>(step * kDepth * kPitch)];
@@ -63,8 +63,8 @@ class SkewedPlane {
   static_assert(kBlockLag >= kBorder);
 
   static std::size_t offset(int step, int columns_right, int rows_down) {
-    return static_cast<std::size_t>((step + columns_right + Wavefront::kLag * rows_down + kBlockLag) * kDepth *
-                                        kPitch +
+    return static_cast<std::size_t>((step + columns_right + Wavefront::kLag * rows_down + kBlockLag) *
+                                        kDepth * kPitch +
                                     kRowsAbove + rows_down);
   }
 

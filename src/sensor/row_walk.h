@@ -33,8 +33,8 @@ inline std::uint32_t row_turn(OrderKind kind, const RowModel& row) {
   return kind == OrderKind::row_column ? 0 : azimuth_of_row(row);
 }
 
-// How far the side offset turns a point at this range, if there is one: the arc tangent's series, which need not
-// be right near the axis. Any range will do.
+// How far the side offset turns a point at this range, if there is one: the arc tangent's series, which need
+// not be right near the axis. Any range will do.
 inline std::int32_t turned_by_side(float side_m, float rho_m) {
   constexpr auto kPerRad = static_cast<float>(kWholeTurn / kTurn);
   const float least_m = std::fabs(side_m) + 1e-9F;
