@@ -12,6 +12,7 @@
 #include "base/simd_loops.h"
 #include "base/trigonometry.h"
 #include "sensor/sensor_model.h"
+#include "sensor/side_turn.h"
 #include "sensor/sweep_grid.h"
 
 namespace pointreel {
@@ -38,9 +39,8 @@ inline std::uint32_t row_turn(OrderKind kind, const RowModel& row) {
 inline std::int32_t turned_by_side(float side_m, float rho_m) {
   constexpr auto kPerRad = static_cast<float>(kWholeTurn / kTurn);
   const float least_m = std::fabs(side_m) + 1e-9F;
-  const float t = side_m / (rho_m > least_m ? rho_m : least_m);
-  const float t2 = t * t;
-  return static_cast<std::int32_t>((t - t * t2 * (1.0F / 3 - t2 * (1.0F / 5))) * kPerRad);
+  return static_cast<std::int32_t>(arc_tangent_series(side_m / (rho_m > least_m ? rho_m : least_m)) *
+                                   kPerRad);
 }
 
 inline float cosine_of(const RowModel& row) {
