@@ -2,18 +2,16 @@
 
 namespace pointreel {
 
-void RangeEncoder::shift_low() {
-  const bool carry = (low_ >> 32) != 0;
-  if (carry || low_ < 0xFF000000u) {
-    // The first cache byte is a placeholder, always zero; it is kept so that the decoder starts with five
-    // bytes.
-    bytes_.push_back(static_cast<std::uint8_t>(cache_ + (carry ? 1 : 0)));
-    for (; pending_ > 1; --pending_) bytes_.push_back(static_cast<std::uint8_t>(carry ? 0x00 : 0xFF));
-    pending_ = 0;
-    cache_ = static_cast<std::uint8_t>(low_ >> 24);
+void RangeEncoder::put_held_bytes() {
+  // It ends at the placeholder at the latest: all that is coded stays below 1.
+  if (low_ >> (32 + held_bits_) != 0) {
+    for (auto byte = bytes_.rbegin(); ++*byte == 0;) ++byte;
   }
-  ++pending_;
-  low_ = (low_ & 0x00FFFFFFu) << 8;
+  while (held_bits_ > 0) {
+    held_bits_ -= 8;
+    bytes_.push_back(static_cast<std::uint8_t>(low_ >> (32 + held_bits_)));
+  }
+  low_ &= 0xFFFFFFFFu;
 }
 
 std::vector<std::uint8_t> RangeEncoder::finish() {
@@ -26,7 +24,8 @@ std::vector<std::uint8_t> RangeEncoder::finish() {
       break;
     }
   }
-  for (int i = 0; i < 5; ++i) shift_low();
+  put_held_bytes();
+  for (int bits = 24; bits >= 0; bits -= 8) bytes_.push_back(static_cast<std::uint8_t>(low_ >> bits));
   std::size_t zeros = 0;
   while (zeros < 32 && !bytes_.empty() && bytes_.back() == 0) {
     bytes_.pop_back();

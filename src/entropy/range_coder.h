@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -42,23 +43,27 @@ class RangeEncoder {
   std::vector<std::uint8_t> finish();
 
   // Bytes so far, for statistics by part (right to within the coder's five bytes of look-ahead).
-  std::size_t size() const { return bytes_.size() + pending_; }
+  std::size_t size() const { return bytes_.size() + static_cast<std::size_t>(held_bits_ / 8); }
 
  private:
-  static constexpr std::uint32_t kTop = 1u << 24;
+  // Whole bytes leave the interval as soon as its range is below 2^24. Without a loop: how many there are is
+  // as hard to predict as the bits. Two at most, as a part is at least 2^-16 of the range.
   void renormalise() {
-    while (range_ < kTop) {
-      range_ <<= 8;
-      shift_low();
-    }
+    const int shift = std::countl_zero(range_ | 1) & 24;
+    range_ <<= shift;
+    low_ <<= shift;
+    held_bits_ += shift;
+    if (held_bits_ >= kMostHeldBits) put_held_bytes();
   }
-  void shift_low();
+  void put_held_bytes();
 
-  std::vector<std::uint8_t> bytes_;
-  std::uint64_t low_ = 0;
+  static constexpr int kMostHeldBits = 16;
+
+  // The first byte is a placeholder, always zero, with which the decoder starts.
+  std::vector<std::uint8_t> bytes_{0};
+  std::uint64_t low_ = 0;  // 32 bits, those held back until there are enough of them, and above a carry
+  int held_bits_ = 0;
   std::uint32_t range_ = 0xFFFFFFFFu;
-  std::uint8_t cache_ = 0;
-  std::size_t pending_ = 1;  // cache byte plus a run of 0xFF that a carry may still change
 };
 
 class RangeDecoder {
