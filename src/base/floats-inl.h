@@ -112,6 +112,10 @@ template <std::size_t N>
 POINTREEL_INLINE Floats<N> absolute(const Floats<N>& a) {
   return each<N>([&](std::size_t i) HWY_ATTR { return hn::Abs(a.part[i]); });
 }
+template <std::size_t N>
+POINTREEL_INLINE Floats<N> with_sign_of(const Floats<N>& sign, const Floats<N>& magnitude) {
+  return each<N>([&](std::size_t i) HWY_ATTR { return hn::CopySign(magnitude.part[i], sign.part[i]); });
+}
 // Operands are never NaN here, so that all instruction sets agree.
 template <std::size_t N>
 POINTREEL_INLINE Floats<N> smaller(const Floats<N>& a, const Floats<N>& b) {

@@ -8,6 +8,7 @@
 #define POINTREEL_BASE_INTS_INL_H_
 #endif
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -113,6 +114,11 @@ template <int kBits, std::size_t N>
 POINTREEL_INLINE Ints<N> shifted_right(const Ints<N>& a) {
   return each_int<N>([&](std::size_t i) HWY_ATTR { return hn::ShiftRight<kBits>(a.part[i]); });
 }
+// Each lane by bits of its own.
+template <std::size_t N>
+POINTREEL_INLINE Ints<N> operator>>(const Ints<N>& a, const Ints<N>& bits) {
+  return each_int<N>([&](std::size_t i) HWY_ATTR { return hn::Shr(a.part[i], bits.part[i]); });
+}
 template <std::size_t N>
 POINTREEL_INLINE IntMask<N> operator>(const Ints<N>& a, const Ints<N>& b) {
   return each_int_mask<N>([&](std::size_t i) HWY_ATTR { return hn::Gt(a.part[i], b.part[i]); });
@@ -194,6 +200,13 @@ POINTREEL_INLINE Int8 bits_by_lane(std::uint32_t bits) {
   static constexpr std::int32_t kBits[8] = {1, 2, 4, 8, 16, 32, 64, 128};
   return where((all_ints<8>(static_cast<std::int32_t>(bits)) & load_ints<8>(kBits)) > all_ints<8>(0),
                all_ints<8>(1));
+}
+// Lanes as bits: the first of them, and the others.
+POINTREEL_INLINE std::size_t first_lane(std::uint32_t bits) {
+  return static_cast<std::size_t>(std::countr_zero(bits));
+}
+POINTREEL_INLINE std::uint32_t without_first_lane(std::uint32_t bits) {
+  return bits & (bits - 1);
 }
 // The first eight lanes but one are false.
 POINTREEL_INLINE IntMask<8> only_lane(std::size_t lane) {

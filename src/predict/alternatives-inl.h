@@ -28,24 +28,23 @@ struct Alternatives {
                              const Float8& blend_m, const Float8& apart_m) {
     Float8 first_m = all<8>(0), second_m = all<8>(0);
     Int8 first_kind = all_ints<8>(kNone), second_kind = all_ints<8>(kNone);
+    // From the last to the first: the second is the one after the first that was not dropped for it.
     const auto look_at = [&](const Float8& seen_m, Kind its_kind) HWY_ATTR {
       const Mask<8> another = seen(seen_m) & (apart_m < absolute(seen_m - blend_m));
-      const Mask<8> second =
-          another & seen(first_m) & (second_m <= all<8>(0)) & (apart_m < absolute(seen_m - first_m));
-      const Mask<8> first = another & (first_m <= all<8>(0));
-      second_m = select(second, seen_m, second_m);
-      second_kind = select(as_int_mask(second), all_ints<8>(its_kind), second_kind);
-      first_m = select(first, seen_m, first_m);
-      first_kind = select(as_int_mask(first), all_ints<8>(its_kind), first_kind);
+      const Mask<8> before_first = another & (apart_m < absolute(seen_m - first_m));
+      second_m = select(before_first, first_m, second_m);
+      second_kind = select(as_int_mask(before_first), first_kind, second_kind);
+      first_m = select(another, seen_m, first_m);
+      first_kind = select(as_int_mask(another), all_ints<8>(its_kind), first_kind);
     };
-    look_at(around.start, kAtStart);
-    look_at(around.above, kFromAbove);
-    look_at(around.above_right, kFromAboveRight);
-    look_at(around.above_right2, kOther);
-    look_at(memory.edge_m(), kOther);
-    look_at(memory.earlier_edge_m(), kOther);
-    look_at(around.above_left, kOther);
     look_at(cells.range_m(0, -2), kOther);
+    look_at(around.above_left, kOther);
+    look_at(memory.earlier_edge_m(), kOther);
+    look_at(memory.edge_m(), kOther);
+    look_at(around.above_right2, kOther);
+    look_at(around.above_right, kFromAboveRight);
+    look_at(around.above, kFromAbove);
+    look_at(around.start, kAtStart);
     store(first_m, range_m[0]);
     store(first_kind, kind[0]);
     store(second_m, range_m[1]);

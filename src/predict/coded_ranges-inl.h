@@ -27,8 +27,7 @@ struct CodedRanges {
   float step_m;
   bool on_lattice;
   RangePlanes planes;
-  ErrorPlanes<kExperts> errors;
-  RowErrors<kExperts> row_errors;
+  RecentErrors<kExperts> errors;
   SkewedPlane<std::int32_t> steps;  // clipped
   RowMemory memory;
   std::array<float, Wavefront::kRows> lattice_phase_m{};
@@ -40,15 +39,11 @@ struct CodedRanges {
   Int8 coded_steps;
 
   CodedRanges(int columns, const RangeQuantiser& quantiser)
-      : step_m(quantiser.step_m),
-        on_lattice(quantiser.on_lattice()),
-        planes(columns),
-        errors(columns),
-        steps(columns) {}
+      : step_m(quantiser.step_m), on_lattice(quantiser.on_lattice()), planes(columns), steps(columns) {}
 
   // `phase_m`: per row, where its lattice has a point.
   void start_block(const std::array<float, Wavefront::kRows>& phase_m) {
-    row_errors = RowErrors<kExperts>(step_m);
+    errors = RecentErrors<kExperts>(step_m);
     memory = RowMemory();
     lattice_phase_m = phase_m;
   }
@@ -70,6 +65,10 @@ struct CodedRanges {
     return on_lattice ? nearest_on_lattice(range_m, step_m, lattice_phase_m[cell]) : range_m;
   }
 
+  POINTREEL_INLINE Float8 quantised(const Float8& range_m) const {  // of each cell
+    return on_lattice ? nearest_on_lattice(range_m, step_m, load<8>(lattice_phase_m.data())) : range_m;
+  }
+
   // What a cell decodes to, and the steps that its neighbours' contexts see.
   POINTREEL_INLINE float take(std::size_t cell, float range_m, std::int32_t steps_from_prediction) {
     const IntMask<8> lane = only_lane(cell);
@@ -79,6 +78,14 @@ struct CodedRanges {
                                                                                  : steps_from_prediction),
                          coded_steps);
     return set_decoded(cell, range_m > kSmallestRangeM ? range_m : kSmallestRangeM);
+  }
+  // The same of several, a bit each.
+  POINTREEL_INLINE void take(std::uint32_t cells, const Float8& range_m, const Int8& steps_from_prediction) {
+    const IntMask<8> taken = bits_by_lane(cells) > all_ints<8>(0);
+    constexpr std::int32_t kMost = kMostContextSteps;
+    coded_steps =
+        where(taken, larger(smaller(steps_from_prediction, all_ints<8>(kMost)), all_ints<8>(-kMost)));
+    decoded_m = select(as_float_mask(taken), larger(range_m, all<8>(kSmallestRangeM)), decoded_m);
   }
   // (Lane by lane in memory, whoever loads the eight would wait until all are written.)
   POINTREEL_INLINE float set_decoded(std::size_t cell, float range_m) {
@@ -111,8 +118,7 @@ struct CodedRanges {
     store(coded_steps, steps.at(step));
     planes.keep_for_next_block(step);
     steps.keep_for_next_block(step);
-    remember_errors(proposals, range_m, proposed, step_m, step, errors, row_errors);
-    errors.keep_for_next_block(step);
+    errors.add(proposals, range_m, proposed);
     memory.add(range_m);
     return inverse;
   }

@@ -55,8 +55,7 @@ class FastRangeModel {
     const Surroundings around(cells, coded_.memory, all<8>(0));
     propose_fast(cells, coded_.memory, lines_, around, coded_.proposals);
     Float8 precision[kFastExperts];
-    const Blend blend = weigh<kFastExperts>(coded_.errors, coded_.row_errors, cells, step, coded_.step_m,
-                                            coded_.proposals, precision);
+    const Blend blend = weigh<kFastExperts>(coded_.errors, cells, coded_.step_m, coded_.proposals, precision);
     squared_error_ = blend.squared_error;
     store(blend.range_m, blend_m_);
     const Int8 error = octaves<FastRangeState::kErrors>(blend.squared_error);
@@ -64,14 +63,16 @@ class FastRangeModel {
     const Int8 shift = shifts(error);
     store(error, error_);
     store(shift, shift_);
+    steps_per_bin_ = power_of_two(shift);
     const Float8 apart_m =
-        (static_cast<float>(BinSymbols::kMostNear) * coded_.step_m) * as_floats(power_of_two(shift));
+        (static_cast<float>(BinSymbols::kMostNear) * coded_.step_m) * as_floats(steps_per_bin_);
     alternatives_.find(cells, coded_.memory, around, blend.range_m, apart_m);
     constexpr std::int32_t kKinds = FastRangeState::kKinds, kSpreads = FastRangeState::kSpreads;
     store(
         (error * all_ints<8>(kSpreads) + spread) * all_ints<8>(kKinds) + load_ints<8>(alternatives_.kind[0]),
         by_error_);
-    store(StepContexts::signs(coded_.steps, step), by_signs_);
+    store(error_pairs(error) * all_ints<8>(FastRangeState::kSigns) + StepContexts::signs(coded_.steps, step),
+          by_signs_);
     coded_.proposed = true;
   }
 
@@ -80,36 +81,20 @@ class FastRangeModel {
     coded_.take_known(range_m, cells);
   }
 
-  // (Nothing of one cell waits for another.)
-  POINTREEL_INLINE void start(std::size_t /*cell*/, int /*row*/) {}
-  POINTREEL_INLINE void learn(std::size_t /*cell*/) {}
-
-  // Codes the range of one that holds a return and gives back the reconstruction, within half a step of
-  // `range_m` (which a decoder ignores).
+  // Codes the ranges of those that hold a return, a bit each, and gives back what a decoder gets, within half
+  // a step of `range_m` (which a decoder ignores), beside those that are known; 0 where there is no return.
   template <class Coder>
-  POINTREEL_INLINE float code(Coder& coder, std::size_t cell, int /*row*/, float range_m) {
-    const std::int32_t shift = shift_[cell];
-    Bin bin{};
-    std::size_t symbol = 0;
-    if constexpr (!Coder::kDecodes) symbol = find_bin(cell, range_m, bin);
-    symbol = code_symbol(coder, state_.by_error, static_cast<std::size_t>(by_error_[cell]), state_.by_signs,
-                         static_cast<std::size_t>(by_signs_[cell]), symbol);
-    float origin_m = coded_.quantised(blend_m_[cell], cell);
-    if (symbol < BinSymbols::kAlternative) {
-      bin.coarse = code_rest(coder, symbol, bin.coarse);
-    } else if (symbol < BinSymbols::kFar) {
-      origin_m = coded_.quantised(alternatives_.range_m[symbol - BinSymbols::kAlternative][cell], cell);
-      bin.coarse = code_near_alternative(coder, cell, symbol - BinSymbols::kAlternative, bin.coarse);
-    } else {
-      bin.coarse = code_far(coder, static_cast<std::size_t>(error_[cell]), bin.coarse);
-    }
-    if (shift > 0) bin.fine = coder.code_bits(bin.fine, shift);
-    const std::int32_t steps = bin.coarse * (1 << shift) + static_cast<std::int32_t>(bin.fine) - half(shift);
-    const float decoded_m = origin_m + static_cast<float>(steps) * coded_.step_m;
-    const std::int32_t from_blend = symbol < BinSymbols::kAlternative ? steps
-                                    : decoded_m < blend_m_[cell]      ? -kMostContextSteps
-                                                                      : kMostContextSteps;
-    return coded_.take(cell, decoded_m, from_blend);
+  POINTREEL_INLINE Float8 code(Coder& coder, std::uint32_t hits, int /*first_row*/, const Float8& range_m) {
+    if (hits == 0) return coded_.decoded_m;
+    Bins bins;
+    if constexpr (!Coder::kDecodes) find_bins(range_m, bins);
+    for (std::uint32_t left = hits; left != 0; left = without_first_lane(left))
+      code_bin(coder, first_lane(left), bins);
+    const Float8 decoded_m = origin_m(bins.origin) + coded_.step_m * as_floats(bins.steps);
+    const Int8 side = select(as_int_mask(decoded_m < load<8>(blend_m_)), all_ints<8>(-kMostContextSteps),
+                             all_ints<8>(kMostContextSteps));
+    coded_.take(hits, decoded_m, select(bins.origin > all_ints<8>(kBlend), side, bins.steps));
+    return coded_.decoded_m;
   }
 
   // What later cells see of the eight; 0 where there is no return.
@@ -124,34 +109,100 @@ class FastRangeModel {
 
  private:
   static constexpr int kMostShift = 3;
+  // Where a bin is counted from: the blend, an alternative, or the blend again where it is far from all.
+  enum Origin : std::int32_t { kBlend, kFirstAlternative, kFar = kFirstAlternative + Alternatives::kMost };
+  static_assert(BinSymbols::kFar - BinSymbols::kAlternative == kFar - kFirstAlternative);
 
-  // Steps from an origin: coarse of 2^shift each, and the step within.
-  struct Bin {
-    std::int32_t coarse;
-    std::uint32_t fine;
+  // Of eight cells: steps from the origin, and for an encoder what to code of them.
+  struct Bins {
+    Int8 steps = all_ints<8>(0), origin = all_ints<8>(kBlend);
+    // Bins of 2^shift steps each, and the step within.
+    alignas(32) std::int32_t symbol[Wavefront::kRows], coarse[Wavefront::kRows], fine[Wavefront::kRows];
+
+    POINTREEL_INLINE Bins() {}
   };
-  static std::int32_t half(std::int32_t shift) { return (1 << shift) >> 1; }
 
-  Bin bin_from(std::size_t cell, float origin_m, float range_m) const {
-    const std::int32_t shift = shift_[cell];
-    const std::int32_t steps =
-        rounded((range_m - coded_.quantised(origin_m, cell)) * per_step_) + half(shift);
-    return {steps >> shift, static_cast<std::uint32_t>(steps & ((1 << shift) - 1))};
-  }
-  static bool is_near(const Bin& bin) { return std::abs(bin.coarse) <= BinSymbols::kMostNear; }
-
-  // Near what the range is, and in which bin from there.
-  POINTREEL_INLINE std::size_t find_bin(std::size_t cell, float range_m, Bin& bin) const {
-    bin = bin_from(cell, blend_m_[cell], range_m);
-    if (is_near(bin)) return kBinSymbols.symbol_of(bin.coarse);
-    for (std::size_t i = 0; i < Alternatives::kMost && alternatives_.kind[i][cell] != Alternatives::kNone;
-         ++i) {
-      const Bin from_alternative = bin_from(cell, alternatives_.range_m[i][cell], range_m);
-      if (!is_near(from_alternative)) continue;
-      bin = from_alternative;
-      return BinSymbols::kAlternative + i;
+  POINTREEL_INLINE Float8 origin_m(const Int8& origin) const {
+    Float8 origin_m = coded_.quantised(load<8>(blend_m_));
+    for (std::size_t i = 0; i < Alternatives::kMost; ++i) {
+      const auto its_number = all_ints<8>(kFirstAlternative + static_cast<std::int32_t>(i));
+      origin_m = select(as_float_mask(origin == its_number),
+                        coded_.quantised(load<8>(alternatives_.range_m[i])), origin_m);
     }
-    return BinSymbols::kFar;
+    return origin_m;
+  }
+
+  // Near what the ranges are, and in which bins from there.
+  POINTREEL_INLINE void find_bins(const Float8& range_m, Bins& bins) const {
+    const Int8 shift = load_ints<8>(shift_), half = shifted_right<1>(steps_per_bin_);
+    const auto steps_from = [&](const Float8& origin_m) HWY_ATTR {
+      return rounded(per_step_ * (range_m - coded_.quantised(origin_m)));
+    };
+    const auto is_far = [&](const Int8& steps) HWY_ATTR {
+      return absolute((steps + half) >> shift) > all_ints<8>(BinSymbols::kMostNear);
+    };
+    bins.steps = steps_from(load<8>(blend_m_));
+    const IntMask<8> far = is_far(bins.steps);
+    if (any(as_float_mask(far))) {
+      bins.origin = where(far, all_ints<8>(kFar));
+      for (std::size_t i = Alternatives::kMost; i-- > 0;) {
+        const Int8 steps = steps_from(load<8>(alternatives_.range_m[i]));
+        const Int8 none = all_ints<8>(Alternatives::kNone);
+        const Int8 kind = select(is_far(steps), none, load_ints<8>(alternatives_.kind[i]));
+        const IntMask<8> near = where(far, kind) > none;
+        bins.steps = select(near, steps, bins.steps);
+        bins.origin =
+            select(near, all_ints<8>(kFirstAlternative + static_cast<std::int32_t>(i)), bins.origin);
+      }
+    }
+    const Int8 steps = bins.steps + half, coarse = steps >> shift;
+    store(coarse, bins.coarse);
+    store(steps & (steps_per_bin_ - all_ints<8>(1)), bins.fine);
+    const Int8 beyond_blend = bins.origin + all_ints<8>(BinSymbols::kAlternative - kFirstAlternative);
+    store(select(bins.origin > all_ints<8>(kBlend), beyond_blend, near_symbols(coarse)), bins.symbol);
+  }
+  static POINTREEL_INLINE Int8 near_symbols(const Int8& coarse) {
+    const Int8 one = all_ints<8>(1), zero = all_ints<8>(BinSymbols::kZero), magnitude = absolute(coarse);
+    Int8 size = all_ints<8>(0);
+    for (std::size_t i = 1; i <= BinSymbols::kZero; ++i) {
+      const std::int32_t nearest = kBinSymbols.group[BinSymbols::kZero + i].nearest;
+      size = size + where(magnitude > all_ints<8>(nearest - 1), one);
+    }
+    return select(coarse > all_ints<8>(0), zero + size, zero - size);
+  }
+
+  // Codes that of one cell; a decoder puts it in its lane.
+  template <class Coder>
+  POINTREEL_INLINE void code_bin(Coder& coder, std::size_t cell, Bins& bins) {
+    std::size_t symbol = 0;
+    std::int32_t coarse = 0;
+    std::uint32_t fine = 0;
+    if constexpr (!Coder::kDecodes) {
+      symbol = static_cast<std::size_t>(bins.symbol[cell]);
+      coarse = bins.coarse[cell];
+      fine = static_cast<std::uint32_t>(bins.fine[cell]);
+    }
+    symbol = code_symbol(coder, state_.by_error, static_cast<std::size_t>(by_error_[cell]), state_.by_signs,
+                         static_cast<std::size_t>(by_signs_[cell]), symbol);
+    if (symbol < BinSymbols::kAlternative) {
+      coarse = code_rest(coder, symbol, coarse);
+    } else if (symbol < BinSymbols::kFar) {
+      coarse = code_near_alternative(coder, cell, symbol - BinSymbols::kAlternative, coarse);
+    } else {
+      coarse = code_far(coder, static_cast<std::size_t>(error_[cell]), coarse);
+    }
+    const std::int32_t shift = shift_[cell];
+    if (shift > 0) fine = coder.code_bits(fine, shift);
+    if constexpr (Coder::kDecodes) {
+      const IntMask<8> lane = only_lane(cell);
+      const std::int32_t half = (1 << shift) >> 1;
+      bins.steps = select(lane, all_ints<8>(coarse * (1 << shift) + static_cast<std::int32_t>(fine) - half),
+                          bins.steps);
+      if (symbol >= BinSymbols::kAlternative) {
+        const auto origin = static_cast<std::int32_t>(symbol - BinSymbols::kAlternative) + kFirstAlternative;
+        bins.origin = select(lane, all_ints<8>(origin), bins.origin);
+      }
+    }
   }
 
   template <class Coder>
@@ -203,6 +254,12 @@ class FastRangeModel {
     const Int8 octave = shifted_right<23>(bits_of(squared_steps + all<8>(kFloor))) - all_ints<8>(127 - 6);
     return larger(smaller(octave, all_ints<8>(static_cast<std::int32_t>(kCount) - 1)), all_ints<8>(0));
   }
+  // The first and the last pair stand for all beyond, too.
+  static POINTREEL_INLINE Int8 error_pairs(const Int8& error) {
+    constexpr std::int32_t kFirst = 3, kMost = FastRangeState::kErrorPairs - 1;
+    return smaller(shifted_right<1>(larger(error, all_ints<8>(kFirst)) - all_ints<8>(kFirst)),
+                   all_ints<8>(kMost));
+  }
   // From errors of 2^7 squared steps on, as far as steps are small: half their logarithm.
   POINTREEL_INLINE Int8 shifts(const Int8& error) const {
     const Int8 wide = shifted_right<1>(error - all_ints<8>(11));
@@ -225,6 +282,7 @@ class FastRangeModel {
   Alternatives alternatives_;
   alignas(32) float blend_m_[Wavefront::kRows];
   Float8 squared_error_;  // of the blend, in squared steps
+  Int8 steps_per_bin_;
   alignas(32) std::int32_t error_[Wavefront::kRows], shift_[Wavefront::kRows];
   alignas(32) std::int32_t by_error_[Wavefront::kRows], by_signs_[Wavefront::kRows];
 };

@@ -15,10 +15,11 @@ struct FastRangeState {
   static constexpr std::size_t kSpreads = 4;  // four octaves each of how far the proposals lie apart
   static constexpr std::size_t kKinds = 5;    // of an alternative: none, start, above, above right, another
   static constexpr std::size_t kSigns = 125;  // of the steps around (step_context-inl.h)
+  static constexpr std::size_t kErrorPairs = 6;  // two octaves each of the recent error
   static constexpr std::size_t kExponents = 28;
 
   SymbolTables<kErrors * kSpreads * kKinds> by_error;
-  SymbolTables<kSigns> by_signs;
+  SymbolTables<kErrorPairs * kSigns> by_signs;
   SymbolTables<kKinds * 2> of_alternative;  // nearer or farther than the prediction
   std::array<CountedBit, kErrors> far_sign;
   std::array<CountedBit, kExponents> far_exponent;

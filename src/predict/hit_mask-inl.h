@@ -11,6 +11,8 @@
 #define POINTREEL_PREDICT_HIT_MASK_INL_H_
 #endif
 
+#include <bit>
+
 #include "predict/bit_mixing-inl.h"
 #include "predict/hit_mask_contexts-inl.h"
 
@@ -28,14 +30,20 @@ class HitMaskModel {
   // Eight cells; outside the image hits are the better guess.
   POINTREEL_INLINE void start_step() { hits_ = (1U << Wavefront::kRows) - 1; }
 
-  // The eight are coded at once where each of them is sure to be a hit, all but once in a while. True when
-  // they are hits; otherwise each has to be coded.
-  POINTREEL_INLINE bool are_sure(int step, const ReferencePlanes* reference) const {
-    return HitMaskContexts::are_sure(planes_, kPredicted ? reference : nullptr, step);
+  // Those of them that are sure to be hits, all but once in a while, and enough to be coded at once; a bit
+  // each.
+  POINTREEL_INLINE std::uint32_t sure_cells(int step, std::uint32_t inside,
+                                            const ReferencePlanes* reference) const {
+    constexpr int kLeast = kEffort == Effort::fast ? 2 : Wavefront::kRows;
+    if constexpr (kEffort == Effort::max) return 0;
+    const std::uint32_t sure =
+        HitMaskContexts::sure_cells(planes_, kPredicted ? reference : nullptr, step) & inside;
+    return std::popcount(sure) >= kLeast ? sure : 0;
   }
+  // True when they are all hits; otherwise each has to be coded.
   template <class Coder>
-  POINTREEL_INLINE bool code_together(Coder& coder, bool hits) {
-    return code_counted(coder, state_.together, hits);
+  POINTREEL_INLINE bool code_together(Coder& coder, std::uint32_t cells, bool hits) {
+    return code_counted(coder, state_.together[static_cast<std::size_t>(std::popcount(cells))], hits);
   }
 
   // Looks at what is known of them; only needed before code().

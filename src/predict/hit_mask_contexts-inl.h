@@ -120,13 +120,13 @@ POINTREEL_INLINE Int8 warped(const Int8& hits) {
 // Slots of the terms, but for what run_class() and density_class() add.
 class HitMaskContexts {
  public:
-  // Whether each of eight cells is sure, which takes less than to find the slots. `reference`: nullptr where
-  // there is none.
-  POINTREEL_INLINE static bool are_sure(const HitMaskPlanes& planes, const ReferencePlanes* reference,
-                                        int step) {
+  // Which of eight cells are sure, a bit each, which takes less than to find the slots. `reference`: nullptr
+  // where there is none.
+  POINTREEL_INLINE static std::uint32_t sure_cells(const HitMaskPlanes& planes,
+                                                   const ReferencePlanes* reference, int step) {
     Int8 sure = amid_hits(load_ints<8>(planes.pattern.at(step, -1)), planes.pattern_above(step));
     if (reference != nullptr) sure = sure & warped(ReferenceView(*reference, step).hits(0));
-    return !any(as_float_mask(all_ints<8>(1) > sure));
+    return lane_bits(as_float_mask(sure > all_ints<8>(0)));
   }
 
   HWY_NOINLINE void find(const HitMaskPlanes& planes, const Int8& row_range, int step) {

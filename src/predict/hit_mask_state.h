@@ -27,7 +27,7 @@ struct HitMaskState {
   // Of the band: at least 1.
   std::size_t rows() const { return terms[kRow].size() / kSlots[kRow]; }
 
-  CountedBit together;                              // of eight cells amid hits: all are hits
+  std::array<CountedBit, 9> together;               // of a number of cells amid hits: all are hits
   std::array<CountedBit, kSlots[kEdges]> sure;      // of one cell amid hits
   std::array<std::vector<float>, kContexts> terms;  // of the others; kRow: kSlots for each row
 };
@@ -35,7 +35,7 @@ struct HitMaskState {
 // Shows a visitor all that adapts, in the order of the tables of priors (priors.h).
 template <class State, class Visitor>
 void visit_hit_mask_state(State& state, Visitor& visitor) {
-  visitor.bit(state.together);
+  for (auto& bit : state.together) visitor.bit(bit);
   for (auto& bit : state.sure) visitor.bit(bit);
   for (std::size_t i = 0; i < HitMaskState::kContexts; ++i) {
     if (i == HitMaskState::kRow) {

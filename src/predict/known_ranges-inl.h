@@ -27,17 +27,12 @@ class KnownRanges {
   bool any() const { return !range_m_.empty(); }
 
   HWY_NOINLINE void load_block(int first_row, int rows) {
-    constexpr std::size_t kPitch = SkewedPlane<float>::kPitch;
-    for (int row = 0; row < rows; ++row) {
-      const float* from_m = &range_m_[static_cast<std::size_t>(first_row + row) * columns_];
-      float* to_m = block_m_.row(row);
-      for (std::size_t column = 0; column < columns_; ++column) to_m[column * kPitch] = from_m[column];
-    }
+    for (int row = 0; row < rows; ++row)
+      block_m_.set_row(row, range_m_.subspan(static_cast<std::size_t>(first_row + row) * columns_, columns_));
   }
 
   // Of the eight cells of a step.
   POINTREEL_INLINE Float8 at(int step) const { return load<8>(block_m_.at(step)); }
-  POINTREEL_INLINE float at(int step, int row) const { return block_m_.at(step)[row]; }
   // Those that are known, a bit each.
   POINTREEL_INLINE std::uint32_t cells(int step) const { return lane_bits(all<8>(0) < at(step)); }
 

@@ -62,8 +62,7 @@ class RangeModel {
       propose_for_key_frame(cells, coded_.memory, coded_.proposals);
     }
     if (ingredients_.experts_off != 0) leave_out_experts();
-    blend<kExperts, kMixed>(coded_.errors, coded_.row_errors, cells, step, coded_.step_m, coded_.proposals,
-                            blended_);
+    blend<kExperts, kMixed>(coded_.errors, cells, coded_.step_m, coded_.proposals, blended_);
     contexts_ = StepContexts(coded_.steps, cells, step);
     if constexpr (!has_trust(kKind)) {
       contexts_.find_places(coded_.proposals.range_m, coded_.step_m,
@@ -77,54 +76,23 @@ class RangeModel {
     coded_.take_known(range_m, cells);
   }
 
-  // Looks at one of them that holds a return: before any of them is coded. `row`: in the band.
-  POINTREEL_INLINE void start(std::size_t cell, int row) {
-    if constexpr (has_trust(kKind)) {
-      const int column = step_ - Wavefront::kLag * static_cast<int>(cell);
-      const TrustedMixture mixture(state_.trust.trusts, blended_, cell,
-                                   trust_classes(context_of(cell, row), blended_.error_class[cell],
-                                                 blended_.blend_m[cell], column, columns_));
-      const auto origin = mixture.likeliest_origin(coded_.step_m);
-      origin_[cell] = origin.expert;
-      bins_[cell].start(mixture, coded_.quantised(origin.range_m, cell), coded_.step_m);
-    } else {
-      bins_[cell].start(Mixture<kMixed>(state_.ranges.mixture, blended_, cell),
-                        coded_.quantised(blended_.blend_m[cell], cell), coded_.step_m);
-    }
-  }
-
-  // Codes its range and gives back the reconstruction, within half a step of `range_m` (which a decoder
-  // ignores). `row`: in the band.
+  // Codes the ranges of those that hold a return, a bit each, and gives back what a decoder gets, within half
+  // a step of `range_m` (which a decoder ignores), beside those that are known; 0 where there is no return.
+  // `first_row`: of the eight in the band.
   template <class Coder>
-  POINTREEL_INLINE float code(Coder& coder, std::size_t cell, int row, float range_m) {
-    CellBins& bins = bins_[cell];
-    const std::int32_t wanted = Coder::kDecodes ? 0 : rounded((range_m - bins.origin_m()) / coded_.step_m);
-    const StepContext context = context_of(cell, row);
-    std::int32_t steps = 0;
-    if constexpr (has_trust(kKind)) {
-      const auto proposed = bins.mixture().steps_from(bins.origin_m(), 1 / coded_.step_m);
-      steps = coded_steps(coder, bins,
-                          MaxSecondStage(state_.trust.questions, context, proposed, origin_[cell]), wanted);
-    } else {
-      steps = coded_steps(coder, bins, SecondStage(state_.ranges.steps, context, ingredients_.second_stage),
-                          wanted);
+  POINTREEL_INLINE Float8 code(Coder& coder, std::uint32_t hits, int first_row, const Float8& range_m) {
+    alignas(32) float range_of[Wavefront::kRows];
+    store(range_m, range_of);
+    const auto row_of = [&](std::size_t cell) { return first_row + static_cast<int>(cell); };
+    for (std::uint32_t left = hits; left != 0; left = without_first_lane(left))
+      start(first_lane(left), row_of(first_lane(left)));
+    for (std::uint32_t left = hits; left != 0; left = without_first_lane(left)) {
+      const std::size_t cell = first_lane(left);
+      code(coder, cell, row_of(cell), range_of[cell]);
     }
-    const float decoded_m = bins.origin_m() + static_cast<float>(steps) * coded_.step_m;
-    return reconstructed_m_[cell] = coded_.take(cell, decoded_m, steps);
-  }
-
-  // What it teaches the mixture, and what later cells see of it: after all of them are coded.
-  POINTREEL_INLINE void learn(std::size_t cell) {
-    const CellBins& bins = bins_[cell];
-    if constexpr (has_trust(kKind)) {
-      const float likely_m = bins.mixture().learn(*bins.lower, *bins.upper, reconstructed_m_[cell],
-                                                  coded_.step_m, state_.trust.trusts);
-      // On the lattice the reconstruction is exact.
-      if (!coded_.on_lattice)
-        coded_.set_decoded(cell, likely_m > kSmallestRangeM ? likely_m : kSmallestRangeM);
-    } else {
-      bins.mixture().learn(*bins.lower, *bins.upper, ingredients_, state_.ranges.mixture);
-    }
+    const Float8 decoded_m = coded_.decoded_m;
+    for (std::uint32_t left = hits; left != 0; left = without_first_lane(left)) learn(first_lane(left));
+    return decoded_m;
   }
 
   // What later cells see of the eight; 0 where there is no return.
@@ -148,6 +116,54 @@ class RangeModel {
  private:
   using CellMixture = std::conditional_t<has_trust(kKind), TrustedMixture, Mixture<kMixed>>;
   using CellBins = Bins<CellMixture>;
+
+  // Before any of them is coded.
+  POINTREEL_INLINE void start(std::size_t cell, int row) {
+    if constexpr (has_trust(kKind)) {
+      const int column = step_ - Wavefront::kLag * static_cast<int>(cell);
+      const TrustedMixture mixture(state_.trust.trusts, blended_, cell,
+                                   trust_classes(context_of(cell, row), blended_.error_class[cell],
+                                                 blended_.blend_m[cell], column, columns_));
+      const auto origin = mixture.likeliest_origin(coded_.step_m);
+      origin_[cell] = origin.expert;
+      bins_[cell].start(mixture, coded_.quantised(origin.range_m, cell), coded_.step_m);
+    } else {
+      bins_[cell].start(Mixture<kMixed>(state_.ranges.mixture, blended_, cell),
+                        coded_.quantised(blended_.blend_m[cell], cell), coded_.step_m);
+    }
+  }
+
+  template <class Coder>
+  POINTREEL_INLINE void code(Coder& coder, std::size_t cell, int row, float range_m) {
+    CellBins& bins = bins_[cell];
+    const std::int32_t wanted = Coder::kDecodes ? 0 : rounded((range_m - bins.origin_m()) / coded_.step_m);
+    const StepContext context = context_of(cell, row);
+    std::int32_t steps = 0;
+    if constexpr (has_trust(kKind)) {
+      const auto proposed = bins.mixture().steps_from(bins.origin_m(), 1 / coded_.step_m);
+      steps = coded_steps(coder, bins,
+                          MaxSecondStage(state_.trust.questions, context, proposed, origin_[cell]), wanted);
+    } else {
+      steps = coded_steps(coder, bins, SecondStage(state_.ranges.steps, context, ingredients_.second_stage),
+                          wanted);
+    }
+    const float decoded_m = bins.origin_m() + static_cast<float>(steps) * coded_.step_m;
+    reconstructed_m_[cell] = coded_.take(cell, decoded_m, steps);
+  }
+
+  // What it teaches the mixture, and what later cells see of it: after all of them are coded.
+  POINTREEL_INLINE void learn(std::size_t cell) {
+    const CellBins& bins = bins_[cell];
+    if constexpr (has_trust(kKind)) {
+      const float likely_m = bins.mixture().learn(*bins.lower, *bins.upper, reconstructed_m_[cell],
+                                                  coded_.step_m, state_.trust.trusts);
+      // On the lattice the reconstruction is exact.
+      if (!coded_.on_lattice)
+        coded_.set_decoded(cell, likely_m > kSmallestRangeM ? likely_m : kSmallestRangeM);
+    } else {
+      bins.mixture().learn(*bins.lower, *bins.upper, ingredients_, state_.ranges.mixture);
+    }
+  }
 
   template <class Coder, class Stage>
   static POINTREEL_INLINE std::int32_t coded_steps(Coder& coder, CellBins& bins, const Stage& stage,

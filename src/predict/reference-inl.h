@@ -9,6 +9,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "base/lanes-inl.h"
 #include "predict/reference_image.h"
@@ -25,25 +27,17 @@ class ReferencePlanes {
 
   // `first_row`: of the block, in the image; rows beyond it are empty.
   HWY_NOINLINE void load_block(const ReferenceImage& image, int first_row) {
-    constexpr std::ptrdiff_t kPitch = SkewedPlane<float>::kPitch;
+    const auto columns = static_cast<std::size_t>(image.columns);
+    const std::vector<float> no_range_m(columns);
+    const std::vector<std::uint8_t> no_hits(columns);
     for (int row = -SkewedPlane<float>::kRowsAbove; row < Wavefront::kRows + SkewedPlane<float>::kRowsBelow;
          ++row) {
       const int image_row = first_row + row;
-      float* range_to = range_m.row(row);
-      std::int32_t* hits_to = hits.row(row);
-      if (image_row < 0 || image_row >= image.rows) {
-        for (int column = 0; column < image.columns; ++column) {
-          range_to[column * kPitch] = 0;
-          hits_to[column * kPitch] = 0;
-        }
-      } else {
-        const float* range_from = &image.range_m[image.index(image_row, 0)];
-        const std::uint8_t* hits_from = &image.hits[image.index(image_row, 0)];
-        for (int column = 0; column < image.columns; ++column) {
-          range_to[column * kPitch] = range_from[column];
-          hits_to[column * kPitch] = hits_from[column];
-        }
-      }
+      const bool inside = image_row >= 0 && image_row < image.rows;
+      const std::size_t first = inside ? image.index(image_row, 0) : 0;
+      range_m.set_row(row,
+                      std::span<const float>(inside ? &image.range_m[first] : no_range_m.data(), columns));
+      hits.set_row(row, std::span<const std::uint8_t>(inside ? &image.hits[first] : no_hits.data(), columns));
     }
   }
 

@@ -81,8 +81,10 @@ POINTREEL_INLINE void learn(SymbolTables<kTables>& tables, std::size_t table, co
 }
 
 // Codes `symbol` (ignored when decoding) with probabilities as of `cumulative`, and returns it.
-template <class Coder>
-POINTREEL_INLINE std::size_t code_symbol(Coder& coder, const SymbolLanes& cumulative, std::size_t symbol) {
+// `learn(symbol)` is called before the coder moves on, so that tables are still in registers.
+template <class Coder, class Learn>
+POINTREEL_INLINE std::size_t code_symbol(Coder& coder, const SymbolLanes& cumulative, std::size_t symbol,
+                                         const Learn& learn) {
   constexpr int kWholeBits = 15;
   constexpr std::uint32_t kWhole = 1U << kWholeBits;
   // In units of the whole, less 1/128 of it, which gives every symbol at least 8.
@@ -108,6 +110,7 @@ POINTREEL_INLINE std::size_t code_symbol(Coder& coder, const SymbolLanes& cumula
   }
   const std::uint32_t first = symbol == 0 ? 0 : end.cumulative[symbol - 1];
   const std::uint32_t last = symbol + 1 == kSymbols ? kWhole : end.cumulative[symbol];
+  learn(symbol);
   coder.code_part(first, last - first, kWholeBits);
   return symbol;
 }
@@ -117,9 +120,8 @@ template <class Coder, std::size_t kTables>
 POINTREEL_INLINE std::size_t code_symbol(Coder& coder, SymbolTables<kTables>& tables, std::size_t table,
                                          std::size_t symbol) {
   const SymbolLanes cumulative = load_symbols(tables.tables[table].cumulative.data());
-  symbol = code_symbol(coder, cumulative, symbol);
-  learn(tables, table, cumulative, symbol);
-  return symbol;
+  return code_symbol(coder, cumulative, symbol,
+                     [&](std::size_t coded) HWY_ATTR { learn(tables, table, cumulative, coded); });
 }
 
 // By two tables, the first of which counts three times.
@@ -132,10 +134,10 @@ POINTREEL_INLINE std::size_t code_symbol(Coder& coder, SymbolTables<kTables>& ta
   const SymbolLanes mixed = each_symbol([&](std::size_t i) HWY_ATTR {
     return hn::AverageRound(a.part[i], hn::AverageRound(a.part[i], b.part[i]));
   });
-  symbol = code_symbol(coder, mixed, symbol);
-  learn(tables, table, a, symbol);
-  learn(other_tables, other, b, symbol);
-  return symbol;
+  return code_symbol(coder, mixed, symbol, [&](std::size_t coded) HWY_ATTR {
+    learn(tables, table, a, coded);
+    learn(other_tables, other, b, coded);
+  });
 }
 
 }  // namespace HWY_NAMESPACE

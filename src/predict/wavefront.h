@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace pointreel {
@@ -47,6 +48,17 @@ class SkewedPlane {
   T* row(int row) {
     return &values_[static_cast<std::size_t>((Wavefront::kLag * row + kBlockLag) * kDepth * kPitch +
                                              kRowsAbove + row)];
+  }
+
+  // A row's values, one a cell, to and from a row of an image.
+  template <class Value>
+  void set_row(int to_row, std::span<const Value> values) requires(kDepth == 1) {
+    T* to = row(to_row);
+    for (std::size_t column = 0; column < values.size(); ++column) to[column * kPitch] = values[column];
+  }
+  void get_row(int from_row, std::span<T> values) requires(kDepth == 1) {
+    const T* from = row(from_row);
+    for (std::size_t column = 0; column < values.size(); ++column) values[column] = from[column * kPitch];
   }
 
   // After the values of a step are stored: those of the last rows are also the ones above the next block,
