@@ -24,8 +24,8 @@ struct Alternatives {
 
   POINTREEL_INLINE Alternatives() {}
 
-  POINTREEL_INLINE void find(const Neighbourhood& cells, const RowMemory& memory, const Surroundings& around,
-                             const Float8& blend_m, const Float8& apart_m) {
+  POINTREEL_INLINE void find(const RowMemory& memory, const Surroundings& around, const Float8& blend_m,
+                             const Float8& apart_m) {
     Float8 first_m = all<8>(0), second_m = all<8>(0);
     Int8 first_kind = all_ints<8>(kNone), second_kind = all_ints<8>(kNone);
     // From the last to the first: the second is the one after the first that was not dropped for it.
@@ -37,9 +37,6 @@ struct Alternatives {
       first_m = select(another, seen_m, first_m);
       first_kind = select(as_int_mask(another), all_ints<8>(its_kind), first_kind);
     };
-    look_at(cells.range_m(0, -2), kOther);
-    look_at(around.above_left, kOther);
-    look_at(memory.earlier_edge_m(), kOther);
     look_at(memory.edge_m(), kOther);
     look_at(around.above_right2, kOther);
     look_at(around.above_right, kFromAboveRight);

@@ -43,7 +43,7 @@ class FastRangeModel {
 
   void start_block(const std::array<float, Wavefront::kRows>& lattice_phase_m) {
     coded_.start_block(lattice_phase_m);
-    lines_ = RowLines();
+    lines_ = RowLines(kFastLineRates);
   }
 
   // Eight cells without returns so far.
@@ -53,7 +53,7 @@ class FastRangeModel {
   HWY_NOINLINE void predict(int step, const ReferencePlanes* /*none*/) {
     const Neighbourhood cells(coded_.planes, step);
     const Surroundings around(cells, coded_.memory, all<8>(0));
-    propose_fast(cells, coded_.memory, lines_, around, coded_.proposals);
+    propose_fast(cells, lines_, around, coded_.proposals);
     Float8 precision[kFastExperts];
     const Blend blend = weigh<kFastExperts>(coded_.errors, cells, coded_.step_m, coded_.proposals, precision);
     squared_error_ = blend.squared_error;
@@ -66,7 +66,7 @@ class FastRangeModel {
     steps_per_bin_ = power_of_two(shift);
     const Float8 apart_m =
         (static_cast<float>(BinSymbols::kMostNear) * coded_.step_m) * as_floats(steps_per_bin_);
-    alternatives_.find(cells, coded_.memory, around, blend.range_m, apart_m);
+    alternatives_.find(coded_.memory, around, blend.range_m, apart_m);
     constexpr std::int32_t kKinds = FastRangeState::kKinds, kSpreads = FastRangeState::kSpreads;
     store(
         (error * all_ints<8>(kSpreads) + spread) * all_ints<8>(kKinds) + load_ints<8>(alternatives_.kind[0]),
@@ -275,7 +275,7 @@ class FastRangeModel {
   CodedRanges<kFastExperts> coded_;
   float per_step_;
   std::int32_t most_shift_ = 0;
-  RowLines lines_;
+  RowLines lines_ = RowLines(kFastLineRates);
   FastRangeState& state_;
 
   // Of the eight cells at hand.

@@ -43,7 +43,7 @@ class RangeModel {
   // `lattice_phase_m`: per row, where its lattice has a point.
   void start_block(const std::array<float, Wavefront::kRows>& lattice_phase_m) {
     coded_.start_block(lattice_phase_m);
-    lines_ = RowLines();
+    lines_ = RowLines(kSmoothLineRates);
     bias_ = ReferenceBias(coded_.step_m);
   }
 
@@ -186,7 +186,7 @@ class RangeModel {
   // errors.
   static constexpr float kMostLean = 0.3F, kNoiseM = 0.015F, kLeanBeyond = 0.4F;
   float lean_;
-  RowLines lines_;
+  RowLines lines_ = RowLines(kSmoothLineRates);
   ReferenceBias bias_ = ReferenceBias(coded_.step_m);
   BandState& state_;
 

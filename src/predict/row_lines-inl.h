@@ -13,11 +13,17 @@ HWY_BEFORE_NAMESPACE();
 namespace pointreel {
 namespace HWY_NAMESPACE {
 
+// By how much of an error a line's level and slope follow it.
+struct LineRates {
+  float level, slope;
+};
+inline constexpr LineRates kSmoothLineRates = {0.35F, 0.1F};  // beside other extrapolations
+
 // No sums over neighbours, as fits need them.
 class RowLines {
  public:
-  POINTREEL_INLINE RowLines()
-      : level_(all<8>(0)), slope_(level_), grown_(level_), step_(level_), weight_(level_) {}
+  POINTREEL_INLINE explicit RowLines(const LineRates& rates)
+      : rates_(rates), level_(all<8>(0)), slope_(level_), grown_(level_), step_(level_), weight_(level_) {}
 
   // The row's line at its next return: Holt's double exponential smoothing.
   POINTREEL_INLINE Float8 line() const { return level_ + slope_; }
@@ -36,8 +42,8 @@ class RowLines {
     const Float8 error = inverse - line;
     // The second point of a line gives its slope whole.
     const Mask<8> young = grown_ <= all<8>(0);
-    const Float8 level = line + select(young, all<8>(1), all<8>(kLevelRate)) * error;
-    const Float8 slope = slope_ + select(young, all<8>(1), all<8>(kSlopeRate)) * error;
+    const Float8 level = line + select(young, all<8>(1), all<8>(rates_.level)) * error;
+    const Float8 slope = slope_ + select(young, all<8>(1), all<8>(rates_.slope)) * error;
     level_ = select(hit, select(goes_on, level, inverse), level_);
     slope_ = select(hit, where(goes_on, slope), slope_);
     grown_ = select(hit, where(goes_on, all<8>(1)), grown_);
@@ -48,8 +54,9 @@ class RowLines {
   }
 
  private:
-  static constexpr float kLevelRate = 0.35F, kSlopeRate = 0.1F, kStepsKept = 0.8F, kLeastWeight = 0.5F;
+  static constexpr float kStepsKept = 0.8F, kLeastWeight = 0.5F;
 
+  LineRates rates_;
   Float8 level_, slope_, grown_;
   Float8 step_, weight_;  // of the steps from the row above, summed
 };
