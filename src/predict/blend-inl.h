@@ -7,6 +7,9 @@
 #define POINTREEL_PREDICT_BLEND_INL_H_
 #endif
 
+#include <cstddef>
+#include <cstdint>
+
 #include "predict/experts-inl.h"
 #include "predict/neighbourhood-inl.h"
 #include "predict/range_state.h"
@@ -38,8 +41,8 @@ POINTREEL_INLINE Int8 error_classes(const Float8& squared_steps) {
                  all_ints<8>(static_cast<std::int32_t>(kErrorClasses) - 1));
 }
 
-// The blend of eight cells' proposals: their mean but for lane 0, weighted by the inverse fourth power of
-// their recent errors.
+// The blend of eight cells' proposals: their mean, weighted by the inverse fourth power of their recent
+// errors.
 struct Blend {
   Float8 range_m;
   Float8 squared_error;  // recent, in squared steps
@@ -53,8 +56,9 @@ POINTREEL_INLINE float error_floor(float step_m) {
   return step_m * step_m * 0.08F + 1e-5F;
 }
 
-// Replaces lane 0 of `proposals` by the blend. `precision`: of each proposal, 1 / its recent squared error.
-template <std::size_t kExperts>
+// Replaces lane 0 of `proposals` by the blend of the others, but for those of `kNotBlended`, a bit each.
+// `precision`: of each proposal, 1 / its recent squared error.
+template <std::size_t kExperts, std::uint32_t kNotBlended = 0>
 POINTREEL_INLINE Blend weigh(const RecentErrors<kExperts>& errors, const Neighbourhood& cells, float step_m,
                              Proposals<kExperts>& proposals, Float8 (&precision)[kExperts]) {
   const float squared_step = step_m * step_m;
@@ -63,12 +67,12 @@ POINTREEL_INLINE Blend weigh(const RecentErrors<kExperts>& errors, const Neighbo
   Float8 weighted = all<8>(0), total = all<8>(0);
   Float8 weight[kExperts];
   Blend blend;
+  const auto is_blended = [](std::size_t k) { return k != 0 && (kNotBlended >> k & 1) == 0; };
   for (std::size_t k = 0; k < kExperts; ++k) {
     const Float8 mean_square = errors.mean_square_m2(k) + beyond_gap;
     precision[k] = all<8>(1) / (mean_square + all<8>(floor));
-    if (k == 0) {
-      blend.squared_error = (1 / squared_step) * mean_square;
-    } else {
+    if (k == 0) blend.squared_error = (1 / squared_step) * mean_square;
+    if (is_blended(k)) {
       weight[k] = precision[k] * precision[k];
       weighted = weighted + weight[k] * proposals.range_m[k];
       total = total + weight[k];
@@ -78,6 +82,7 @@ POINTREEL_INLINE Blend weigh(const RecentErrors<kExperts>& errors, const Neighbo
   proposals.range_m[0] = blend.range_m;
   Float8 spread = all<8>(0);
   for (std::size_t k = 1; k < kExperts; ++k) {
+    if (!is_blended(k)) continue;
     const Float8 away_m = proposals.range_m[k] - blend.range_m;
     spread = spread + weight[k] * (away_m * away_m);
   }
@@ -86,11 +91,11 @@ POINTREEL_INLINE Blend weigh(const RecentErrors<kExperts>& errors, const Neighbo
 }
 
 // The same with all that the mixture looks at, which is one of the first kMixed experts.
-template <std::size_t kExperts, std::size_t kMixed>
+template <std::size_t kExperts, std::size_t kMixed, std::uint32_t kNotBlended>
 HWY_NOINLINE void blend(const RecentErrors<kExperts>& errors, const Neighbourhood& cells, float step_m,
                         Proposals<kExperts>& proposals, BlendedProposals<kMixed>& blended) {
   Float8 precision[kExperts];
-  const Blend blend = weigh<kExperts>(errors, cells, step_m, proposals, precision);
+  const Blend blend = weigh<kExperts, kNotBlended>(errors, cells, step_m, proposals, precision);
   blended.squared_error = blend.squared_error;
   store(blend.range_m, blended.blend_m);
   store(error_classes(blend.squared_error), blended.error_class);

@@ -54,6 +54,12 @@ enum PredictedExpert : std::uint8_t {
   kReferenceBelow = 15,
 };
 
+// A bit per expert that the blend is better off without: ranges taken from nearby as they are, which the
+// mixture or the places among the bins take into account.
+constexpr std::uint32_t not_blended(const CodingKind& kind) {
+  return 1U << kAboveRight | 1U << kEdge | 1U << kAbove | (has_trust(kind) ? 1U << kLeft : 0U);
+}
+
 enum RowLineExpert : std::uint8_t {  // in place of the local fits, where has_row_lines()
   kRowLine = kPlane,
   kStepFromAbove = kLine,

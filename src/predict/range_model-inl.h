@@ -62,7 +62,8 @@ class RangeModel {
       propose_for_key_frame(cells, coded_.memory, coded_.proposals);
     }
     if (ingredients_.experts_off != 0) leave_out_experts();
-    blend<kExperts, kMixed>(coded_.errors, cells, coded_.step_m, coded_.proposals, blended_);
+    blend<kExperts, kMixed, not_blended(kKind)>(coded_.errors, cells, coded_.step_m, coded_.proposals,
+                                                blended_);
     contexts_ = StepContexts(coded_.steps, cells, step);
     if constexpr (!has_trust(kKind)) {
       contexts_.find_places(coded_.proposals.range_m, coded_.step_m,
