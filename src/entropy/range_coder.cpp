@@ -1,5 +1,7 @@
 #include "entropy/range_coder.h"
 
+#include <utility>
+
 namespace pointreel {
 
 void RangeEncoder::put_held_bytes() {

@@ -1,6 +1,7 @@
 // Binary range coder: turns (bit, probability) pairs into bytes and back, exactly, on every machine.
 //
-// Carry-propagating coder with 32-bit range (Martin 1979, in the form Pavlov's LZMA made common).
+// Carry-propagating coder with 32-bit range (Martin 1979); the bytes are those of the form that Pavlov's LZMA
+// made common.
 // Probabilities are 16-bit integers, so nothing here depends on floating point. Symbols of more than two
 // values are parts of a whole of 2^n, n up to 16.
 #pragma once
@@ -48,6 +49,7 @@ class RangeEncoder {
  private:
   // Whole bytes leave the interval as soon as its range is below 2^24. Without a loop: how many there are is
   // as hard to predict as the bits. Two at most, as a part is at least 2^-16 of the range.
+  // (That is never 0; the 1 saves processors without lzcnt a branch for it.)
   void renormalise() {
     const int shift = std::countl_zero(range_ | 1) & 24;
     range_ <<= shift;

@@ -14,7 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace pointreel {
 namespace HWY_NAMESPACE {
 
-// The first two surfaces seen around each of eight cells that are neither the blend's nor each other's.
+// Two of the surfaces seen around each of eight cells that are not the blend's; as a rule not each other's.
 struct Alternatives {
   static constexpr std::size_t kMost = 2;
   enum Kind : std::uint8_t { kNone, kAtStart, kFromAbove, kFromAboveRight, kOther };
@@ -28,7 +28,7 @@ struct Alternatives {
                              const Float8& apart_m) {
     Float8 first_m = all<8>(0), second_m = all<8>(0);
     Int8 first_kind = all_ints<8>(kNone), second_kind = all_ints<8>(kNone);
-    // From the last to the first: the second is the one after the first that was not dropped for it.
+    // From the last to the first. One that is not another than the first before it takes its place.
     const auto look_at = [&](const Float8& seen_m, Kind its_kind) HWY_ATTR {
       const Mask<8> another = seen(seen_m) & (apart_m < absolute(seen_m - blend_m));
       const Mask<8> before_first = another & (apart_m < absolute(seen_m - first_m));

@@ -34,8 +34,8 @@ bool code_band(Coder& mask_coder, Coder& range_coder, const BandSetting& setting
   HitMaskModel<kEffort, kPredicted> mask(columns, state.mask);
   using Ranges = std::conditional_t<kEffort == Effort::fast, FastRangeModel, RangeModel<kEffort, kPredicted>>;
   Ranges ranges(columns, setting, state);
-  SkewedPlane<float> block_m(
-      columns);  // an encoder's ranges, until those that a decoder gets take their place
+  // An encoder's ranges, until those that a decoder gets take their place.
+  SkewedPlane<float> block_m(columns);
   KnownRanges known(columns, setting.known_range_m);
   ReferencePlanes reference(kPredicted ? columns : 0);
   for (int first = 0; first < band.rows; first += kRows) {
@@ -64,16 +64,16 @@ bool code_band(Coder& mask_coder, Coder& range_coder, const BandSetting& setting
       const std::uint32_t inside = (1U << end_row) - (1U << first_row);
       const Float8 range_m = load<8>(block_m.at(step));
       std::uint32_t hits = Coder::kDecodes ? 0 : lane_bits(all<8>(0) < range_m) & inside;  // a bit a row
-      std::uint32_t left = inside;  // to be coded one by one
+      std::uint32_t remaining = inside;  // to be coded one by one
       const std::uint32_t sure = mask.sure_cells(step, inside, &reference);
       if (sure != 0 && mask.code_together(mask_coder, sure, (hits & sure) == sure)) {
         hits |= sure;
-        left &= ~sure;
+        remaining &= ~sure;
       }
-      if (left != 0) {
+      if (remaining != 0) {
         mask.predict(step, &reference);
-        for (; left != 0; left = without_first_lane(left)) {
-          const std::size_t row = first_lane(left);
+        for (; remaining != 0; remaining = without_first_lane(remaining)) {
+          const std::size_t row = first_lane(remaining);
           if (mask.code(mask_coder, row, first + static_cast<int>(row), (hits >> row & 1) != 0))
             hits |= 1U << row;
         }

@@ -1,4 +1,4 @@
-// The blend: the experts' proposals weighed by how well each did around the cell; eight cells at once.
+// The blend: the experts' proposals weighed by how well each did along the row; eight cells at once.
 
 #if defined(POINTREEL_PREDICT_BLEND_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef POINTREEL_PREDICT_BLEND_INL_H_

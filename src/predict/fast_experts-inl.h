@@ -20,7 +20,6 @@ inline constexpr std::size_t kFastExperts = 4;              // lane 0 is left fo
 POINTREEL_INLINE void propose_fast(const Neighbourhood& cells, const RowLines& lines,
                                    const Surroundings& around, Proposals<kFastExperts>& proposals) {
   Float8* range_m = proposals.range_m;
-  range_m[0] = around.start;
   range_m[1] = around.if_likely(inverted(lines.line()));
   range_m[2] = around.if_likely(inverted(lines.parallel(cells.inverse_range(0, -1))));
   range_m[3] = around.start;

@@ -14,7 +14,7 @@
 #endif
 
 #include <algorithm>
-#include <bit>
+#include <cstdlib>
 
 #include "predict/alternatives-inl.h"
 #include "predict/band_coding.h"
@@ -87,9 +87,9 @@ class FastRangeModel {
   POINTREEL_INLINE Float8 code(Coder& coder, std::uint32_t hits, int /*first_row*/, const Float8& range_m) {
     if (hits == 0) return coded_.decoded_m;
     Bins bins;
-    if constexpr (!Coder::kDecodes) find_bins(range_m, bins);
-    for (std::uint32_t left = hits; left != 0; left = without_first_lane(left))
-      code_bin(coder, first_lane(left), bins);
+    if constexpr (!Coder::kDecodes) find_bins(range_m, hits, bins);
+    for (std::uint32_t remaining = hits; remaining != 0; remaining = without_first_lane(remaining))
+      code_bin(coder, first_lane(remaining), bins);
     const Float8 decoded_m = origin_m(bins.origin) + coded_.step_m * as_floats(bins.steps);
     const Int8 side = select(as_int_mask(decoded_m < load<8>(blend_m_)), all_ints<8>(-kMostContextSteps),
                              all_ints<8>(kMostContextSteps));
@@ -110,8 +110,12 @@ class FastRangeModel {
  private:
   static constexpr int kMostShift = 3;
   // Where a bin is counted from: the blend, an alternative, or the blend again where it is far from all.
-  enum Origin : std::int32_t { kBlend, kFirstAlternative, kFar = kFirstAlternative + Alternatives::kMost };
-  static_assert(BinSymbols::kFar - BinSymbols::kAlternative == kFar - kFirstAlternative);
+  enum Origin : std::int32_t {
+    kBlend,
+    kFirstAlternative,
+    kBlendFromAfar = kFirstAlternative + Alternatives::kMost
+  };
+  static_assert(BinSymbols::kFar - BinSymbols::kAlternative == kBlendFromAfar - kFirstAlternative);
 
   // Of eight cells: steps from the origin, and for an encoder what to code of them.
   struct Bins {
@@ -132,8 +136,8 @@ class FastRangeModel {
     return origin_m;
   }
 
-  // Near what the ranges are, and in which bins from there.
-  POINTREEL_INLINE void find_bins(const Float8& range_m, Bins& bins) const {
+  // Near what the ranges of `hits` are, a bit each, and in which bins from there.
+  POINTREEL_INLINE void find_bins(const Float8& range_m, std::uint32_t hits, Bins& bins) const {
     const Int8 shift = load_ints<8>(shift_), half = shifted_right<1>(steps_per_bin_);
     const auto steps_from = [&](const Float8& origin_m) HWY_ATTR {
       return rounded(per_step_ * (range_m - coded_.quantised(origin_m)));
@@ -143,8 +147,8 @@ class FastRangeModel {
     };
     bins.steps = steps_from(load<8>(blend_m_));
     const IntMask<8> far = is_far(bins.steps);
-    if (any(as_float_mask(far))) {
-      bins.origin = where(far, all_ints<8>(kFar));
+    if ((lane_bits(as_float_mask(far)) & hits) != 0) {
+      bins.origin = where(far, all_ints<8>(kBlendFromAfar));
       for (std::size_t i = Alternatives::kMost; i-- > 0;) {
         const Int8 steps = steps_from(load<8>(alternatives_.range_m[i]));
         const Int8 none = all_ints<8>(Alternatives::kNone);
@@ -161,6 +165,7 @@ class FastRangeModel {
     const Int8 beyond_blend = bins.origin + all_ints<8>(BinSymbols::kAlternative - kFirstAlternative);
     store(select(bins.origin > all_ints<8>(kBlend), beyond_blend, near_symbols(coarse)), bins.symbol);
   }
+  // As BinSymbols::symbol_of().
   static POINTREEL_INLINE Int8 near_symbols(const Int8& coarse) {
     const Int8 one = all_ints<8>(1), zero = all_ints<8>(BinSymbols::kZero), magnitude = absolute(coarse);
     Int8 size = all_ints<8>(0);
@@ -245,7 +250,9 @@ class FastRangeModel {
     const std::int32_t magnitude = kLeast + static_cast<std::int32_t>(std::min(value, kMostBeyond));
     return below ? -magnitude : magnitude;
   }
+  // An encoder never gets there: a blend is at most 1.5 times a range.
   static constexpr std::uint32_t kMostBeyond = 1U << 26;
+  static_assert(kMostBeyond > 3 * static_cast<std::uint32_t>(kMostRangeSteps));
 
   // Octaves of squared steps from 2^-6 on, clamped to kCount.
   template <std::size_t kCount>

@@ -31,14 +31,17 @@ class HitMaskModel {
   POINTREEL_INLINE void start_step() { hits_ = (1U << Wavefront::kRows) - 1; }
 
   // Those of them that are sure to be hits, all but once in a while, and enough to be coded at once; a bit
-  // each.
+  // each. (Effort max, whose frames by themselves are balanced's, always asks its contexts.)
   POINTREEL_INLINE std::uint32_t sure_cells(int step, std::uint32_t inside,
                                             const ReferencePlanes* reference) const {
-    constexpr int kLeast = kEffort == Effort::fast ? 2 : Wavefront::kRows;
-    if constexpr (kEffort == Effort::max) return 0;
-    const std::uint32_t sure =
-        HitMaskContexts::sure_cells(planes_, kPredicted ? reference : nullptr, step) & inside;
-    return std::popcount(sure) >= kLeast ? sure : 0;
+    if constexpr (kEffort == Effort::max) {
+      return 0;
+    } else {
+      constexpr int kLeast = kEffort == Effort::fast ? 2 : Wavefront::kRows;
+      const std::uint32_t sure =
+          HitMaskContexts::sure_cells(planes_, kPredicted ? reference : nullptr, step) & inside;
+      return std::popcount(sure) >= kLeast ? sure : 0;
+    }
   }
   // True when they are all hits; otherwise each has to be coded.
   template <class Coder>

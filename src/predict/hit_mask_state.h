@@ -9,6 +9,7 @@
 
 #include "entropy/bit_mixer.h"
 #include "predict/coding_kind.h"
+#include "predict/wavefront.h"
 
 namespace pointreel {
 
@@ -27,7 +28,9 @@ struct HitMaskState {
   // Of the band: at least 1.
   std::size_t rows() const { return terms[kRow].size() / kSlots[kRow]; }
 
-  std::array<CountedBit, 9> together;               // of a number of cells amid hits: all are hits
+  // Of a number of cells amid hits: all are hits. (Efforts use those of some numbers only.)
+  std::array<CountedBit, Wavefront::kRows + 1> together;
+
   std::array<CountedBit, kSlots[kEdges]> sure;      // of one cell amid hits
   std::array<std::vector<float>, kContexts> terms;  // of the others; kRow: kSlots for each row
 };

@@ -85,14 +85,15 @@ class RangeModel {
     alignas(32) float range_of[Wavefront::kRows];
     store(range_m, range_of);
     const auto row_of = [&](std::size_t cell) { return first_row + static_cast<int>(cell); };
-    for (std::uint32_t left = hits; left != 0; left = without_first_lane(left))
-      start(first_lane(left), row_of(first_lane(left)));
-    for (std::uint32_t left = hits; left != 0; left = without_first_lane(left)) {
-      const std::size_t cell = first_lane(left);
-      code(coder, cell, row_of(cell), range_of[cell]);
+    for (std::uint32_t remaining = hits; remaining != 0; remaining = without_first_lane(remaining))
+      start_cell(first_lane(remaining), row_of(first_lane(remaining)));
+    for (std::uint32_t remaining = hits; remaining != 0; remaining = without_first_lane(remaining)) {
+      const std::size_t cell = first_lane(remaining);
+      code_cell(coder, cell, row_of(cell), range_of[cell]);
     }
     const Float8 decoded_m = coded_.decoded_m;
-    for (std::uint32_t left = hits; left != 0; left = without_first_lane(left)) learn(first_lane(left));
+    for (std::uint32_t remaining = hits; remaining != 0; remaining = without_first_lane(remaining))
+      learn_from(first_lane(remaining));
     return decoded_m;
   }
 
@@ -119,7 +120,7 @@ class RangeModel {
   using CellBins = Bins<CellMixture>;
 
   // Before any of them is coded.
-  POINTREEL_INLINE void start(std::size_t cell, int row) {
+  POINTREEL_INLINE void start_cell(std::size_t cell, int row) {
     if constexpr (has_trust(kKind)) {
       const int column = step_ - Wavefront::kLag * static_cast<int>(cell);
       const TrustedMixture mixture(state_.trust.trusts, blended_, cell,
@@ -135,7 +136,7 @@ class RangeModel {
   }
 
   template <class Coder>
-  POINTREEL_INLINE void code(Coder& coder, std::size_t cell, int row, float range_m) {
+  POINTREEL_INLINE void code_cell(Coder& coder, std::size_t cell, int row, float range_m) {
     CellBins& bins = bins_[cell];
     const std::int32_t wanted = Coder::kDecodes ? 0 : rounded((range_m - bins.origin_m()) / coded_.step_m);
     const StepContext context = context_of(cell, row);
@@ -153,7 +154,7 @@ class RangeModel {
   }
 
   // What it teaches the mixture, and what later cells see of it: after all of them are coded.
-  POINTREEL_INLINE void learn(std::size_t cell) {
+  POINTREEL_INLINE void learn_from(std::size_t cell) {
     const CellBins& bins = bins_[cell];
     if constexpr (has_trust(kKind)) {
       const float likely_m = bins.mixture().learn(*bins.lower, *bins.upper, reconstructed_m_[cell],

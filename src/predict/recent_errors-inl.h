@@ -7,7 +7,6 @@
 #define POINTREEL_PREDICT_RECENT_ERRORS_INL_H_
 #endif
 
-#include <algorithm>
 #include <cstddef>
 
 #include "predict/experts-inl.h"
@@ -33,7 +32,7 @@ class RecentErrors {
 
   // More where the cell to the left is empty: who knows what the row shows beyond the gap.
   POINTREEL_INLINE Float8 beyond_gap_m2(const Neighbourhood& cells) const {
-    return where(cells.range_m(-1) <= all<8>(0), all<8>(kUnknownSquaredSteps * squared_step_m2_));
+    return select(seen(cells.range_m(-1)), all<8>(0), all<8>(kUnknownSquaredSteps * squared_step_m2_));
   }
   POINTREEL_INLINE Float8 mean_square_m2(std::size_t expert) const {
     return last_m2_[expert] + kMeanShare * mean_m2_[expert];

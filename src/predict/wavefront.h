@@ -25,16 +25,16 @@ struct Wavefront {
   static constexpr int steps(int columns) { return columns + kLag * kRows; }
 };
 
-// kDepth values a cell of eight rows, the two rows above them and the row below.
-template <class T, int kDepth = 1>
+// A value a cell of eight rows, the two rows above them and the row below.
+template <class T>
 class SkewedPlane {
  public:
   static constexpr int kRowsAbove = 2, kRowsBelow = 1;
-  static constexpr int kPitch = kRowsAbove + Wavefront::kRows + kRowsBelow;  // from one of kDepth to the next
+  static constexpr int kPitch = kRowsAbove + Wavefront::kRows + kRowsBelow;  // from one step to the next
 
   explicit SkewedPlane(int columns, T empty = T())
-      : values_(static_cast<std::size_t>((kBlockLag + Wavefront::steps(columns) + kBorder) * kDepth * kPitch),
-                empty) {}
+      : values_(static_cast<std::size_t>((kBlockLag + Wavefront::steps(columns) + kBorder) * kPitch), empty) {
+  }
 
   // Values of the eight rows that are `rows_down` rows below those of the step, `columns_right` columns right
   // of its cells: eight side by side.
@@ -44,20 +44,15 @@ class SkewedPlane {
   const T* at(int step, int columns_right = 0, int rows_down = 0) const {
     return &values_[offset(step, columns_right, rows_down)];
   }
-  // The first value of a row, from -kRowsAbove to kRows + kRowsBelow - 1; the next one is kDepth * kPitch on.
-  T* row(int row) {
-    return &values_[static_cast<std::size_t>((Wavefront::kLag * row + kBlockLag) * kDepth * kPitch +
-                                             kRowsAbove + row)];
-  }
 
-  // A row's values, one a cell, to and from a row of an image.
+  // The values of a row, from -kRowsAbove to kRows + kRowsBelow - 1, to and from a row of an image.
   template <class Value>
-  void set_row(int to_row, std::span<const Value> values) requires(kDepth == 1) {
-    T* to = row(to_row);
+  void set_row(int to_row, std::span<const Value> values) {
+    T* to = at(0, 0, to_row);
     for (std::size_t column = 0; column < values.size(); ++column) to[column * kPitch] = values[column];
   }
-  void get_row(int from_row, std::span<T> values) requires(kDepth == 1) {
-    const T* from = row(from_row);
+  void get_row(int from_row, std::span<T> values) const {
+    const T* from = at(0, 0, from_row);
     for (std::size_t column = 0; column < values.size(); ++column) values[column] = from[column * kPitch];
   }
 
@@ -65,8 +60,7 @@ class SkewedPlane {
   // where they stand a block's rows further back in the wavefront, which this block has left behind.
   void keep_for_next_block(int step) {
     const T* from = at(step) + Wavefront::kRows - kRowsAbove;
-    T* to = &values_[static_cast<std::size_t>(step * kDepth * kPitch)];
-    for (int k = 0; k < kDepth; ++k) std::copy_n(from + k * kPitch, kRowsAbove, to + k * kPitch);
+    std::copy_n(from, kRowsAbove, &values_[static_cast<std::size_t>(step * kPitch)]);
   }
 
  private:
@@ -75,9 +69,8 @@ class SkewedPlane {
   static_assert(kBlockLag >= kBorder);
 
   static std::size_t offset(int step, int columns_right, int rows_down) {
-    return static_cast<std::size_t>((step + columns_right + Wavefront::kLag * rows_down + kBlockLag) *
-                                        kDepth * kPitch +
-                                    kRowsAbove + rows_down);
+    return static_cast<std::size_t>(
+        (step + columns_right + Wavefront::kLag * rows_down + kBlockLag) * kPitch + kRowsAbove + rows_down);
   }
 
   std::vector<T> values_;

@@ -9,9 +9,11 @@
 namespace pointreel {
 namespace {
 
-std::vector<std::uint8_t> encoded(const std::vector<SimulatedSweep>& sweeps, double max_error_m) {
+std::vector<std::uint8_t> encoded(const std::vector<SimulatedSweep>& sweeps, double max_error_m,
+                                  Effort effort) {
   EncoderOptions options;
   options.mixture.max_error_m = max_error_m;
+  options.mixture.effort = effort;
   auto encoder = Encoder::create(options);
   std::vector<std::uint8_t> bytes;
   for (const SimulatedSweep& sweep : sweeps) {
@@ -26,14 +28,16 @@ std::vector<std::uint8_t> encoded(const std::vector<SimulatedSweep>& sweeps, dou
 
 TEST(SimdPaths, EncodeToTheSameBytes) {
   const auto sweeps = simulated_drive(2);
-  for (const double max_error_m : {0.02, 0.001}) {
-    std::vector<std::uint8_t> first;
-    for_each_simd_path([&](const char* path) {
-      const auto bytes = encoded(sweeps, max_error_m);
-      if (first.empty()) first = bytes;
-      EXPECT_EQ(bytes, first) << path << ", " << max_error_m << " m";
-    });
-    EXPECT_FALSE(first.empty());
+  for (const Effort effort : {Effort::fast, Effort::balanced, Effort::max}) {
+    for (const double max_error_m : {0.02, 0.001}) {
+      std::vector<std::uint8_t> first;
+      for_each_simd_path([&](const char* path) {
+        const auto bytes = encoded(sweeps, max_error_m, effort);
+        if (first.empty()) first = bytes;
+        EXPECT_EQ(bytes, first) << path << ", " << max_error_m << " m, effort " << static_cast<int>(effort);
+      });
+      EXPECT_FALSE(first.empty());
+    }
   }
 }
 

@@ -61,10 +61,12 @@ RC_GTEST_PROP(RangeCoder, BringsBackPartsOfAWholeBetweenBits, ()) {
   std::vector<Part> parts(count);
   RangeEncoder encoder;
   for (Part& part : parts) {
-    part.whole_bits = static_cast<int>(random() % 16) + 1;
+    part.whole_bits = random() % 3 == 0 ? 16 : static_cast<int>(random() % 16) + 1;
     const std::uint32_t whole = 1U << part.whole_bits;
-    part.first = static_cast<std::uint32_t>(random()) % whole;
-    part.size = 1 + static_cast<std::uint32_t>(random()) % (whole - part.first);
+    // Among them the least there are, which hold back most bytes at once, and those at the upper end.
+    const bool least = random() % 3 == 0, last = random() % 3 == 0;
+    part.first = last ? whole - 1 : static_cast<std::uint32_t>(random()) % whole;
+    part.size = least ? 1 : 1 + static_cast<std::uint32_t>(random()) % (whole - part.first);
     encoder.encode_part(part.first, part.size, part.whole_bits);
     encoder.encode(part.size % 2 == 0, 20'000);
   }
