@@ -31,29 +31,13 @@ class GroupDecoder {
  public:
   explicit GroupDecoder(const StreamHeader& header) : header_(header) {}
 
-  // All packets of one group, or what is left of it. With several threads the points of a sweep are decoded
-  // while the cells of the next one are.
+  // All packets of one group, or what is left of it.
   void decode(std::span<const Packet> packets, int threads, std::span<Result<DecodedSweep>> sweeps) {
-    std::optional<Result<BegunSweep>> last;
-    for (std::size_t i = 0; i < packets.size(); ++i) {
-      bool spoilt = false;
-      const std::function<void()> finish_last = [&] {
-        if (last)
-          spoilt = !finish(packets[i - 1], *std::exchange(last, std::nullopt), threads, sweeps[i - 1]);
-      };
-      if (threads == 1) finish_last();
-      ByteReader reader(packets[i].payload);
-      const auto coding = coding_of(packets[i], reference_frame_, reader);
-      auto begun = coding ? begin(packets[i], *coding, reader, threads, BesideTasks(&finish_last, 1))
-                          : Result<BegunSweep>(coding.error());
-      finish_last();  // where there was no image to decode
-      if (spoilt && (!coding || *coding == SweepCoding::predicted)) {
-        forget_reference();
-        if (coding) begun = reference_is_missing(packets[i]);
-      }
-      last = std::move(begun);
+    if (header_.effort == Effort::fast) {
+      decode_side_by_side(packets, threads, sweeps);
+    } else {
+      decode_in_turn(packets, threads, sweeps);
     }
-    if (last && !finish(packets.back(), *std::move(last), threads, sweeps.back())) forget_reference();
   }
 
   Result<SweepPlanes> decode_planes(const Packet& packet, int threads) {
@@ -76,6 +60,55 @@ class GroupDecoder {
     std::optional<DecodedCells> cells;  // of a sweep on the grid
     ByteReader reader;                  // of what is left of the payload
   };
+
+  // Of effort fast: no sweep needs another one, all need the sensor model that came with the first.
+  void decode_side_by_side(std::span<const Packet> packets, int threads,
+                           std::span<Result<DecodedSweep>> sweeps) {
+    std::vector<ByteReader> readers;
+    std::vector<Result<SweepCoding>> codings;
+    for (const Packet& packet : packets) {
+      readers.emplace_back(packet.payload);
+      codings.push_back(coding_of(packet, reference_frame_, readers.back()));
+    }
+    const int threads_each = std::max(1, threads / static_cast<int>(packets.size()));
+    parallel_for(packets.size(), threads, [&](std::size_t i) {
+      finish(packets[i], codings[i] ? begin_alone(*codings[i], readers[i], threads_each) : codings[i].error(),
+             threads_each, sweeps[i]);
+    });
+  }
+
+  Result<BegunSweep> begin_alone(SweepCoding coding, ByteReader reader, int threads) const {
+    if (coding == SweepCoding::scattered) return BegunSweep{coding, {}, reader};
+    CodedImage image;
+    WarpMemory unused;
+    auto cells = decode_cells(geometry_setting(header_, model_, threads, unused), nullptr, reader, image);
+    if (!cells) return cells.error();
+    return BegunSweep{coding, *std::move(cells), reader};
+  }
+
+  // With several threads the points of a sweep are decoded while the cells of the next one are.
+  void decode_in_turn(std::span<const Packet> packets, int threads, std::span<Result<DecodedSweep>> sweeps) {
+    std::optional<Result<BegunSweep>> last;
+    for (std::size_t i = 0; i < packets.size(); ++i) {
+      bool spoilt = false;
+      const std::function<void()> finish_last = [&] {
+        if (last)
+          spoilt = !finish(packets[i - 1], *std::exchange(last, std::nullopt), threads, sweeps[i - 1]);
+      };
+      if (threads == 1) finish_last();
+      ByteReader reader(packets[i].payload);
+      const auto coding = coding_of(packets[i], reference_frame_, reader);
+      auto begun = coding ? begin(packets[i], *coding, reader, threads, BesideTasks(&finish_last, 1))
+                          : Result<BegunSweep>(coding.error());
+      finish_last();  // where there was no image to decode
+      if (spoilt && (!coding || *coding == SweepCoding::predicted)) {
+        forget_reference();
+        if (coding) begun = reference_is_missing(packets[i]);
+      }
+      last = std::move(begun);
+    }
+    if (last && !finish(packets.back(), *std::move(last), threads, sweeps.back())) forget_reference();
+  }
 
   // `beside` are not called where there is no image to decode.
   Result<BegunSweep> begin(const Packet& packet, SweepCoding coding, ByteReader reader, int threads,
