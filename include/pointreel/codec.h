@@ -228,8 +228,9 @@ class Decoder {
   Decoder& operator=(Decoder&&) noexcept;
   ~Decoder();
 
-  // Packets in stream order; groups of one call are decoded side by side. One result per packet: a damaged
-  // packet, or one whose reference frame was not decoded, is an Error, and harms only those that refer to it.
+  // Packets in stream order; groups of one call, and sweeps of effort fast, are decoded side by side. One
+  // result per packet: a damaged packet, or one whose reference frame was not decoded, is an Error, and harms
+  // only those that refer to it.
   std::vector<Result<DecodedSweep>> decode(std::span<const Packet> packets);
 
   // The planes alone, many times as fast: of method `planes` on the sensor's grid. Packets as for decode(),
