@@ -72,18 +72,14 @@ class GroupDecoder {
     }
     const int threads_each = std::max(1, threads / static_cast<int>(packets.size()));
     parallel_for(packets.size(), threads, [&](std::size_t i) {
-      finish(packets[i], codings[i] ? begin_alone(*codings[i], readers[i], threads_each) : codings[i].error(),
+      CodedImage image;  // of no use to any other
+      WarpMemory unused;
+      finish(packets[i],
+             codings[i] ? begin(*codings[i], readers[i],
+                                geometry_setting(header_, model_, threads_each, unused), image)
+                        : codings[i].error(),
              threads_each, sweeps[i]);
     });
-  }
-
-  Result<BegunSweep> begin_alone(SweepCoding coding, ByteReader reader, int threads) const {
-    if (coding == SweepCoding::scattered) return BegunSweep{coding, {}, reader};
-    CodedImage image;
-    WarpMemory unused;
-    auto cells = decode_cells(geometry_setting(header_, model_, threads, unused), nullptr, reader, image);
-    if (!cells) return cells.error();
-    return BegunSweep{coding, *std::move(cells), reader};
   }
 
   // With several threads the points of a sweep are decoded while the cells of the next one are.
@@ -98,8 +94,10 @@ class GroupDecoder {
       if (threads == 1) finish_last();
       ByteReader reader(packets[i].payload);
       const auto coding = coding_of(packets[i], reference_frame_, reader);
-      auto begun = coding ? begin(packets[i], *coding, reader, threads, BesideTasks(&finish_last, 1))
-                          : Result<BegunSweep>(coding.error());
+      const auto setting =
+          geometry_setting(header_, model_, threads, warp_memory_, BesideTasks(&finish_last, 1));
+      auto begun = coding ? begin(*coding, reader, setting, last_image_) : Result<BegunSweep>(coding.error());
+      if (begun && begun->cells) remember_reference(packets[i]);
       finish_last();  // where there was no image to decode
       if (spoilt && (!coding || *coding == SweepCoding::predicted)) {
         forget_reference();
@@ -110,19 +108,21 @@ class GroupDecoder {
     if (last && !finish(packets.back(), *std::move(last), threads, sweeps.back())) forget_reference();
   }
 
-  // `beside` are not called where there is no image to decode.
-  Result<BegunSweep> begin(const Packet& packet, SweepCoding coding, ByteReader reader, int threads,
-                           BesideTasks beside) {
+  // `image`: of the reference, then of this sweep. The setting's `beside` are not called where there is none.
+  static Result<BegunSweep> begin(SweepCoding coding, ByteReader reader, const GeometrySetting& setting,
+                                  CodedImage& image) {
     if (coding == SweepCoding::scattered) return BegunSweep{coding, {}, reader};
-    auto cells = decode_cells(geometry_setting(header_, model_, threads, warp_memory_, beside),
-                              coding == SweepCoding::predicted ? &last_image_ : nullptr, reader, last_image_);
+    auto cells = decode_cells(setting, coding == SweepCoding::predicted ? &image : nullptr, reader, image);
     if (!cells) return cells.error();
+    return BegunSweep{coding, *std::move(cells), reader};
+  }
+
+  void remember_reference(const Packet& packet) {
     reference_frame_ = packet.frame;
     if (header_.method == Method::planes) {
       last_planes_ = {last_image_.reference.grid, last_image_.planes};
       planes_frame_ = packet.frame;
     }
-    return BegunSweep{coding, *std::move(cells), reader};
   }
 
   // False when a sweep whose cells were decoded has damaged points: it is no reference then.

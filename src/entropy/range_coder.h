@@ -1,9 +1,8 @@
 // Binary range coder: turns (bit, probability) pairs into bytes and back, exactly, on every machine.
 //
 // Carry-propagating coder with 32-bit range (Martin 1979); the bytes are those of the form that Pavlov's LZMA
-// made common.
-// Probabilities are 16-bit integers, so nothing here depends on floating point. Symbols of more than two
-// values are parts of a whole of 2^n, n up to 16.
+// made common. Probabilities are 16-bit integers, so nothing here depends on floating point. Symbols of more
+// than two values are parts of a whole of 2^n, n up to 16.
 #pragma once
 
 #include <algorithm>
