@@ -52,10 +52,11 @@ class PriorMean {
   template <std::size_t kTables>
   void symbols(const SymbolTables<kTables>& tables) {
     constexpr int kMostCount = 48;
-    for (std::size_t t = 0; t < kTables; ++t) {
-      set(std::min<int>(tables.count[t] / 2, kMostCount));
+    for (const SymbolTable& table : tables) {
+      set(symbols_learnt(table.cumulative[kSymbols - 1], 2 * kMostCount) / 2);
       int before = 0;
-      for (const int end : tables.tables[t].cumulative) {
+      for (std::size_t i = 0; i < kSymbols; ++i) {
+        const int end = i + 1 < kSymbols ? table.cumulative[i] : 65535;
         logarithm(static_cast<float>(end - before + 16) / 65536);
         before = end;
       }
@@ -83,6 +84,12 @@ class PriorMean {
   struct Number {
     double sum = 0, count = 0;
   };
+
+  static int symbols_learnt(std::uint16_t learnt, int most) {
+    int count = 0;
+    while (count < most && kLearntAfter[static_cast<std::size_t>(count)] < learnt) ++count;
+    return count;
+  }
 
   // The byte that state_from_priors() reads. Priors count for half as many bits as training saw, at most.
   static int byte_of(Probability16 p_one, std::uint32_t count) {

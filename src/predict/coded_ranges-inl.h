@@ -28,7 +28,6 @@ struct CodedRanges {
   bool on_lattice;
   RangePlanes planes;
   RecentErrors<kExperts> errors;
-  SkewedPlane<std::int32_t> steps;  // clipped
   RowMemory memory;
   std::array<float, Wavefront::kRows> lattice_phase_m{};
 
@@ -36,10 +35,10 @@ struct CodedRanges {
   Proposals<kExperts> proposals;
   bool proposed = false;
   Float8 decoded_m;  // in the end what later cells see of it
-  Int8 coded_steps;
+  Int8 coded_steps;  // clipped
 
   CodedRanges(int columns, const RangeQuantiser& quantiser)
-      : step_m(quantiser.step_m), on_lattice(quantiser.on_lattice()), planes(columns), steps(columns) {}
+      : step_m(quantiser.step_m), on_lattice(quantiser.on_lattice()), planes(columns) {}
 
   // `phase_m`: per row, where its lattice has a point.
   void start_block(const std::array<float, Wavefront::kRows>& phase_m) {
@@ -115,9 +114,7 @@ struct CodedRanges {
     const Float8 inverse = where(seen(range_m), all<8>(1) / larger(range_m, all<8>(kSmallestRangeM)));
     store(range_m, planes.range_m.at(step));
     store(inverse, planes.inverse_range.at(step));
-    store(coded_steps, steps.at(step));
     planes.keep_for_next_block(step);
-    steps.keep_for_next_block(step);
     errors.add(proposals, range_m, proposed);
     memory.add(range_m);
     return inverse;

@@ -44,6 +44,7 @@ class FastRangeModel {
   void start_block(const std::array<float, Wavefront::kRows>& lattice_phase_m) {
     coded_.start_block(lattice_phase_m);
     lines_ = RowLines(kFastLineRates);
+    left_side_ = all_ints<8>(FastRangeState::kSides / 2);
   }
 
   // Eight cells without returns so far.
@@ -67,12 +68,12 @@ class FastRangeModel {
     const Float8 apart_m =
         (static_cast<float>(BinSymbols::kMostNear) * coded_.step_m) * as_floats(steps_per_bin_);
     alternatives_.find(coded_.memory, around, blend.range_m, apart_m);
-    constexpr std::int32_t kKinds = FastRangeState::kKinds, kSpreads = FastRangeState::kSpreads;
-    store(
-        (error * all_ints<8>(kSpreads) + spread) * all_ints<8>(kKinds) + load_ints<8>(alternatives_.kind[0]),
-        by_error_);
-    store(error_pairs(error) * all_ints<8>(FastRangeState::kSigns) + StepContexts::signs(coded_.steps, step),
-          by_signs_);
+    constexpr std::int32_t kKinds = FastRangeState::kKinds, kSpreads = FastRangeState::kSpreads,
+                           kSides = FastRangeState::kSides;
+    const Int8 kind = load_ints<8>(alternatives_.kind[0]);
+    store(((error * all_ints<8>(kSpreads) + spread) * all_ints<8>(kKinds) + kind) * all_ints<8>(kSides) +
+              left_side_,
+          table_);
     coded_.proposed = true;
   }
 
@@ -105,6 +106,9 @@ class FastRangeModel {
     constexpr float kLeanBeside = 0.45F, kLeanBeyond = 0.3F;
     coded_.lean_to_prediction(kLeanBeside, kLeanBeyond, squared_error_);
     coded_.remember(step, lines_);
+    const Int8 one = all_ints<8>(1);
+    left_side_ =
+        smaller(larger(coded_.coded_steps + one, all_ints<8>(0)), all_ints<8>(FastRangeState::kSides - 1));
   }
 
  private:
@@ -187,8 +191,7 @@ class FastRangeModel {
       coarse = bins.coarse[cell];
       fine = static_cast<std::uint32_t>(bins.fine[cell]);
     }
-    symbol = code_symbol(coder, state_.by_error, static_cast<std::size_t>(by_error_[cell]), state_.by_signs,
-                         static_cast<std::size_t>(by_signs_[cell]), symbol);
+    symbol = code_symbol(coder, state_.of_cell[static_cast<std::size_t>(table_[cell])], symbol);
     if (symbol < BinSymbols::kAlternative) {
       coarse = code_rest(coder, symbol, coarse);
     } else if (symbol < BinSymbols::kFar) {
@@ -226,7 +229,7 @@ class FastRangeModel {
     const std::size_t table =
         static_cast<std::size_t>(alternatives_.kind[alternative][cell]) * 2 + (farther ? 1 : 0);
     std::size_t symbol = Coder::kDecodes ? 0 : kBinSymbols.symbol_of(coarse);
-    symbol = code_symbol(coder, state_.of_alternative, table, symbol);
+    symbol = code_symbol(coder, state_.of_alternative[table], symbol);
     return code_rest(coder, std::min(symbol, BinSymbols::kAlternative - 1), coarse);
   }
 
@@ -261,12 +264,6 @@ class FastRangeModel {
     const Int8 octave = shifted_right<23>(bits_of(squared_steps + all<8>(kFloor))) - all_ints<8>(127 - 6);
     return larger(smaller(octave, all_ints<8>(static_cast<std::int32_t>(kCount) - 1)), all_ints<8>(0));
   }
-  // The first and the last pair stand for all beyond, too.
-  static POINTREEL_INLINE Int8 error_pairs(const Int8& error) {
-    constexpr std::int32_t kFirst = 3, kMost = FastRangeState::kErrorPairs - 1;
-    return smaller(shifted_right<1>(larger(error, all_ints<8>(kFirst)) - all_ints<8>(kFirst)),
-                   all_ints<8>(kMost));
-  }
   // From errors of 2^7 squared steps on, as far as steps are small: half their logarithm.
   POINTREEL_INLINE Int8 shifts(const Int8& error) const {
     const Int8 wide = shifted_right<1>(error - all_ints<8>(11));
@@ -283,6 +280,7 @@ class FastRangeModel {
   float per_step_;
   std::int32_t most_shift_ = 0;
   RowLines lines_ = RowLines(kFastLineRates);
+  Int8 left_side_;  // of the prediction, on which the range left of each cell was
   FastRangeState& state_;
 
   // Of the eight cells at hand.
@@ -291,7 +289,7 @@ class FastRangeModel {
   Float8 squared_error_;  // of the blend, in squared steps
   Int8 steps_per_bin_;
   alignas(32) std::int32_t error_[Wavefront::kRows], shift_[Wavefront::kRows];
-  alignas(32) std::int32_t by_error_[Wavefront::kRows], by_signs_[Wavefront::kRows];
+  alignas(32) std::int32_t table_[Wavefront::kRows];
 };
 
 }  // namespace HWY_NAMESPACE

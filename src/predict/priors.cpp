@@ -44,15 +44,15 @@ class PriorReader {
   }
   template <std::size_t kTables>
   void symbols(SymbolTables<kTables>& tables) {
-    for (std::size_t t = 0; t < kTables; ++t) {
-      tables.count[t] = static_cast<std::uint8_t>(*next_++);
+    for (SymbolTable& table : tables) {
+      table.cumulative[kSymbols - 1] = kLearntAfter[static_cast<std::uint8_t>(*next_++)];
       std::array<float, kSymbols> weight{};
       float total = 0;
       for (float& w : weight) total += w = power_of_two(*next_++);
       float sum = 0;
       for (std::size_t i = 0; i + 1 < kSymbols; ++i) {
         sum += weight[i];
-        tables.tables[t].cumulative[i] = static_cast<std::uint16_t>(sum / total * 65535);
+        table.cumulative[i] = static_cast<std::uint16_t>(sum / total * 65535);
       }
     }
   }

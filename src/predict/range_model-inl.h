@@ -37,6 +37,7 @@ class RangeModel {
       : columns_(columns),
         ingredients_(setting.ingredients),
         coded_(columns, setting.quantiser),
+        steps_(columns),
         lean_(std::min(kMostLean, kNoiseM / coded_.step_m)),
         state_(state) {}
 
@@ -64,7 +65,7 @@ class RangeModel {
     if (ingredients_.experts_off != 0) leave_out_experts();
     blend<kExperts, kMixed, not_blended(kKind)>(coded_.errors, cells, coded_.step_m, coded_.proposals,
                                                 blended_);
-    contexts_ = StepContexts(coded_.steps, cells, step);
+    contexts_ = StepContexts(steps_, cells, step);
     if constexpr (!has_trust(kKind)) {
       contexts_.find_places(coded_.proposals.range_m, coded_.step_m,
                             kPredicted ? kPredictedTriples : kKeyTriples);
@@ -113,6 +114,8 @@ class RangeModel {
     } else {
       coded_.remember(step);
     }
+    store(coded_.coded_steps, steps_.at(step));
+    steps_.keep_for_next_block(step);
   }
 
  private:
@@ -184,6 +187,7 @@ class RangeModel {
   int columns_;
   Ingredients ingredients_;
   CodedRanges<kExperts> coded_;
+  SkewedPlane<std::int32_t> steps_;  // as coded, clipped
   // Of a step: as far as noise goes at most. In coarse steps leaning would follow the prediction's own
   // errors.
   static constexpr float kMostLean = 0.3F, kNoiseM = 0.015F, kLeanBeyond = 0.4F;

@@ -22,7 +22,7 @@ inline constexpr std::int32_t kMostContextSteps = 2;
 
 // Indices of adaptive models, for one cell.
 struct StepContext {
-  std::size_t signs;         // of the steps left, above and above right
+  std::size_t signs;         // of the steps left, above and above right, 0 to 124
   std::size_t activity;      // 0 to 15: the sizes of the steps around; the nearest two count twice
   std::size_t availability;  // of returns left and above
   std::size_t row;
@@ -41,7 +41,8 @@ class StepContexts {
                         HWY_ATTR { return load_ints<8>(steps.at(step, columns_right, rows_down)); };
     const Int8 left = at(-1, 0), left2 = at(-2, 0);
     const Int8 above = at(0, -1), above_left = at(-1, -1), above_right = at(1, -1);
-    store(signs(left, above, above_right), signs_);
+    constexpr std::int32_t kMiddle = (kMostContextSteps * 5 + kMostContextSteps) * 5 + kMostContextSteps;
+    store(times5(times5(left) + above) + above_right + all_ints<8>(kMiddle), signs_);
     const Int8 near = absolute(left) + absolute(above);
     const Int8 around = near + near + absolute(above_right) + absolute(left2) + absolute(above_left);
     store(smaller(around, all_ints<8>(static_cast<std::int32_t>(StepModels::kActivities) - 1)), activity_);
@@ -67,12 +68,6 @@ class StepContexts {
     }
   }
 
-  // Of the steps left, above and above right: 0 to 124.
-  static POINTREEL_INLINE Int8 signs(const SkewedPlane<std::int32_t>& steps, int step) {
-    return signs(load_ints<8>(steps.at(step, -1)), load_ints<8>(steps.at(step, 0, -1)),
-                 load_ints<8>(steps.at(step, 1, -1)));
-  }
-
   POINTREEL_INLINE StepContext of(std::size_t cell, int row, std::int32_t error_class,
                                   std::int32_t spread_class) const {
     const auto sixteen = [](std::int32_t c) HWY_ATTR {
@@ -89,10 +84,6 @@ class StepContexts {
   }
 
  private:
-  static POINTREEL_INLINE Int8 signs(const Int8& left, const Int8& above, const Int8& above_right) {
-    constexpr std::int32_t kMiddle = (kMostContextSteps * 5 + kMostContextSteps) * 5 + kMostContextSteps;
-    return times5(times5(left) + above) + above_right + all_ints<8>(kMiddle);
-  }
   static POINTREEL_INLINE Int8 times5(const Int8& a) { return shifted_left<2>(a) + a; }
 
   alignas(32) std::int32_t signs_[8], activity_[8], availability_[8];

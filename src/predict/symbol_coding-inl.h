@@ -56,88 +56,51 @@ inline constexpr auto kSymbolTargets = [] {
   return targets;
 }();
 
-// By how much tables learn after a number of symbols: 1/16 at first, 1/128 in the end.
-inline constexpr std::uint8_t kSettled = 128;
-inline constexpr auto kLearningShifts = [] {
-  std::array<std::uint8_t, kSettled + 1> shifts{};
-  for (std::size_t count = 0; count < shifts.size(); ++count)
-    shifts[count] = static_cast<std::uint8_t>(count < 16 ? 4 : count < 48 ? 5 : count < kSettled ? 6 : 7);
-  return shifts;
-}();
-
 // Moves a table towards the symbol.
-template <std::size_t kTables>
-POINTREEL_INLINE void learn(SymbolTables<kTables>& tables, std::size_t table, const SymbolLanes& cumulative,
-                            std::size_t symbol) {
-  std::uint8_t& count = tables.count[table];
-  const int shift = kLearningShifts[count];
-  count = static_cast<std::uint8_t>(count + (count < kSettled ? 1 : 0));
+POINTREEL_INLINE void learn(SymbolTable& table, const SymbolLanes& cumulative, std::size_t symbol) {
+  const int shift = table.learning_shift();
   const SymbolLanes target = load_symbols(kSymbolTargets[symbol].cumulative.data());
   store(each_symbol([&](std::size_t i) HWY_ATTR {
           const auto away = hn::Xor(cumulative.part[i], target.part[i]);
           return hn::Xor(hn::Sub(away, hn::ShiftRightSame(away, shift)), target.part[i]);
         }),
-        tables.tables[table].cumulative.data());
+        table.cumulative.data());
 }
 
-// Codes `symbol` (ignored when decoding) with probabilities as of `cumulative`, and returns it.
-// `learn(symbol)` is called before the coder moves on, so that tables are still in registers.
-template <class Coder, class Learn>
-POINTREEL_INLINE std::size_t code_symbol(Coder& coder, const SymbolLanes& cumulative, std::size_t symbol,
-                                         const Learn& learn) {
+// Codes `symbol` (ignored when decoding) by a table, which learns it, and returns it.
+template <class Coder>
+POINTREEL_INLINE std::size_t code_symbol(Coder& coder, SymbolTable& table, std::size_t symbol) {
   constexpr int kWholeBits = 15;
-  constexpr std::uint32_t kWhole = 1U << kWholeBits;
-  // In units of the whole, less 1/128 of it, which gives every symbol at least 8.
+  // In units of the whole, less 1/128 of it, which gives every symbol at least 8. The last one ends with it.
   static constexpr SymbolTable kLeast = [] {
-    SymbolTable table{};
-    for (std::size_t i = 0; i < kSymbols; ++i) table.cumulative[i] = static_cast<std::uint16_t>(8 * (i + 1));
-    return table;
+    SymbolTable least;
+    for (std::size_t i = 0; i < kSymbols; ++i) least.cumulative[i] = static_cast<std::uint16_t>(8 * (i + 1));
+    least.cumulative[kSymbols - 1] = (1 << kWholeBits) - 1;
+    return least;
   }();
+  const SymbolLanes cumulative = load_symbols(table.cumulative.data());
   const SymbolLanes least = load_symbols(kLeast.cumulative.data());
+  // All stay below 2^15, and signed is what processors compare.
+  const hn::RebindToSigned<SymbolLanes::Tag> tag;
   const SymbolLanes ends = each_symbol([&](std::size_t i) HWY_ATTR {
     const auto half = hn::ShiftRight<1>(cumulative.part[i]);
-    return hn::Add(hn::Sub(half, hn::ShiftRight<7>(half)), least.part[i]);
+    const auto share = hn::Sub(half, hn::ShiftRight<7>(half));
+    return hn::BitCast(SymbolLanes::Tag(),
+                       hn::SaturatedAdd(hn::BitCast(tag, share), hn::BitCast(tag, least.part[i])));
   });
-  SymbolTable end;
-  store(ends, end.cumulative.data());
+  std::uint16_t borders[1 + kSymbols];
+  borders[0] = 0;
+  for (std::size_t i = 0; i < SymbolLanes::kParts; ++i)
+    hn::StoreU(ends.part[i], SymbolLanes::Tag(), borders + 1 + i * SymbolLanes::kPartLanes);
   if constexpr (Coder::kDecodes) {
-    // Both stay below 2^15, and signed comparisons are what processors have.
-    const hn::RebindToSigned<SymbolLanes::Tag> tag;
     const auto place = hn::Set(tag, static_cast<std::int16_t>(coder.next_place(kWholeBits)));
     symbol = kSymbols;
     for (const auto& part : ends.part) symbol -= hn::CountTrue(tag, hn::Gt(hn::BitCast(tag, part), place));
     symbol = symbol < kSymbols ? symbol : kSymbols - 1;
   }
-  const std::uint32_t first = symbol == 0 ? 0 : end.cumulative[symbol - 1];
-  const std::uint32_t last = symbol + 1 == kSymbols ? kWhole : end.cumulative[symbol];
-  learn(symbol);
-  coder.code_part(first, last - first, kWholeBits);
+  learn(table, cumulative, symbol);  // while it is still in registers
+  coder.code_part(borders[symbol], std::uint32_t{borders[symbol + 1]} - borders[symbol], kWholeBits);
   return symbol;
-}
-
-// The same by one table.
-template <class Coder, std::size_t kTables>
-POINTREEL_INLINE std::size_t code_symbol(Coder& coder, SymbolTables<kTables>& tables, std::size_t table,
-                                         std::size_t symbol) {
-  const SymbolLanes cumulative = load_symbols(tables.tables[table].cumulative.data());
-  return code_symbol(coder, cumulative, symbol,
-                     [&](std::size_t coded) HWY_ATTR { learn(tables, table, cumulative, coded); });
-}
-
-// By two tables, the first of which counts three times.
-template <class Coder, std::size_t kTables, std::size_t kOtherTables>
-POINTREEL_INLINE std::size_t code_symbol(Coder& coder, SymbolTables<kTables>& tables, std::size_t table,
-                                         SymbolTables<kOtherTables>& other_tables, std::size_t other,
-                                         std::size_t symbol) {
-  const SymbolLanes a = load_symbols(tables.tables[table].cumulative.data());
-  const SymbolLanes b = load_symbols(other_tables.tables[other].cumulative.data());
-  const SymbolLanes mixed = each_symbol([&](std::size_t i) HWY_ATTR {
-    return hn::AverageRound(a.part[i], hn::AverageRound(a.part[i], b.part[i]));
-  });
-  return code_symbol(coder, mixed, symbol, [&](std::size_t coded) HWY_ATTR {
-    learn(tables, table, a, coded);
-    learn(other_tables, other, b, coded);
-  });
 }
 
 }  // namespace HWY_NAMESPACE
