@@ -18,7 +18,7 @@ constexpr float kFarthestM = 80;
 // A look at a cell's four far neighbours alone, which settles most cases: the direction that a plane through
 // them would face; negative: there is none.
 int facing_at_first_sight(const GridRays& sweep, int row, int column, int half_rows) {
-  constexpr float kBentM = 0.15F;
+  constexpr float kBentM = 0.3F;
   const float center_m = sweep.range_m(row, column);
   if (!(center_m > kNearestM && center_m < kFarthestM)) return -1;
   const int left = sweep.wrapped(column - kHalfPatchColumns),

@@ -1,4 +1,4 @@
-// A scene of planes, and what a spinning sensor with 32 rows sees of it while it stands still.
+// A scene of planes and pillars, and what a spinning sensor with 32 rows sees of it while it stands still.
 #pragma once
 
 #include <cmath>
@@ -17,6 +17,20 @@ struct Plane {
   double distance_m;
 };
 
+// Upright and round, from the ground to the sky.
+struct Pillar {
+  Eigen::Vector2d middle_m;
+  double radius_m;
+};
+
+// Where the line begin + rho * along first meets a pillar; infinity: it does not.
+inline double meets(const Pillar& pillar, const Eigen::Vector2d& begin, const Eigen::Vector2d& along) {
+  const Eigen::Vector2d away = begin - pillar.middle_m;
+  const double a = along.squaredNorm(), half_b = away.dot(along);
+  const double root = half_b * half_b - a * (away.squaredNorm() - pillar.radius_m * pillar.radius_m);
+  return root < 0 ? std::numeric_limits<double>::infinity() : (-half_b - std::sqrt(root)) / a;
+}
+
 struct SceneView {
   std::vector<GridRow> rows;
   std::vector<double> column_azimuth_rad;
@@ -24,7 +38,8 @@ struct SceneView {
   RangeGrid grid() const { return {rows, column_azimuth_rad, range_m}; }
 };
 
-inline SceneView view_of(const std::vector<Plane>& scene, const Pose& T_world_sensor) {
+inline SceneView view_of(const std::vector<Plane>& scene, const Pose& T_world_sensor,
+                         const std::vector<Pillar>& pillars = {}) {
   constexpr int kRows = 32, kColumns = 900;
   constexpr double kFarthestM = 120;
   SceneView view;
@@ -46,6 +61,10 @@ inline SceneView view_of(const std::vector<Plane>& scene, const Pose& T_world_se
       double nearest_m = std::numeric_limits<double>::infinity();  // as rho
       for (const Plane& plane : scene) {
         const double rho_m = (plane.distance_m - plane.normal.dot(begin)) / plane.normal.dot(along);
+        if (rho_m > 0.5 && rho_m < nearest_m) nearest_m = rho_m;
+      }
+      for (const Pillar& pillar : pillars) {
+        const double rho_m = meets(pillar, begin.head<2>(), along.head<2>());
         if (rho_m > 0.5 && rho_m < nearest_m) nearest_m = rho_m;
       }
       const double range_m = nearest_m * ahead.norm();
