@@ -1,5 +1,6 @@
 // registration_drift: how far the encoder's own registration drifts from true poses, and how long it takes,
-// beside registration by the planes of encoded sweeps and PCL's point-to-plane ICP on the whole clouds.
+// beside registration by the planes of encoded sweeps and PCL's point-to-plane ICP on the whole clouds. With
+// --apart, whether its steps add up to what it finds between sweeps that are farther apart.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -36,6 +37,7 @@ struct Arguments {
   double simulated_mps = 12;
   double reference_bound_m = 0;
   bool with_pcl = true;
+  bool apart = false;
 };
 
 // As a decoder has them when every point must be within the bound; 0: as measured.
@@ -47,37 +49,67 @@ void quantise(std::vector<float>& range_m, double bound_m) {
   }
 }
 
-// Each sweep against the one before, on the grid that the encoder finds; the last motion is the guess.
-MotionTrack own_track(const std::vector<PointCloud>& sweeps, const RegistrationSettings& settings,
-                      double reference_bound_m) {
-  MotionTrack track;
+// A sweep on the grid that the encoder finds.
+struct OwnSweep {
+  MeasuredGrid measured;
+  std::vector<float> range_m;
+  RangeGrid grid() const { return measured.with(range_m); }
+};
+
+std::vector<OwnSweep> own_sweeps(const std::vector<PointCloud>& sweeps) {
+  std::vector<OwnSweep> own;
   SensorEstimator estimator;
-  std::optional<MeasuredGrid> previous;
-  std::vector<float> previous_range_m;
-  std::optional<Pose> guess;
   for (const PointCloud& sweep : sweeps) {
     estimator.add(sweep);
     if (!estimator.model()) throw std::runtime_error("no sensor grid found");
     const GriddedSweep gridded = project(*estimator.model(), sweep);
-    MeasuredGrid current(*estimator.model(), gridded.grid);
-    auto range_m = ranges_by_cell(gridded);
-    if (previous) {
-      const std::clock_t begin = std::clock();
-      const Registration found =
-          register_sweeps(previous->with(previous_range_m), current.with(range_m), guess, settings);
-      track.cpu_ms.push_back(1000.0 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
-      track.T_previous_sweep.push_back(found.T_ref_cur);
-      guess.reset();
-      if (found.converged)
-        guess = found.T_ref_cur;
-      else
-        ++track.failures;
-    }
-    previous = std::move(current);
-    previous_range_m = std::move(range_m);
-    quantise(previous_range_m, reference_bound_m);
+    const auto range_m = ranges_by_cell(gridded);
+    own.push_back({MeasuredGrid(*estimator.model(), gridded.grid), {range_m.begin(), range_m.end()}});
+  }
+  return own;
+}
+
+// Each against the one before; the last motion is the guess.
+MotionTrack own_track(const std::vector<OwnSweep>& sweeps, const RegistrationSettings& settings,
+                      double reference_bound_m) {
+  MotionTrack track;
+  std::optional<Pose> guess;
+  for (std::size_t i = 1; i < sweeps.size(); ++i) {
+    OwnSweep reference = sweeps[i - 1];
+    quantise(reference.range_m, reference_bound_m);
+    const std::clock_t begin = std::clock();
+    const Registration found = register_sweeps(reference.grid(), sweeps[i].grid(), guess, settings);
+    track.cpu_ms.push_back(1000.0 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
+    track.T_previous_sweep.push_back(found.T_ref_cur);
+    guess.reset();
+    if (found.converged)
+      guess = found.T_ref_cur;
+    else
+      ++track.failures;
   }
   return track;
+}
+
+// Mean distance of sweeps that are a number of sweeps apart, by single steps and at once.
+void print_apart(const std::string& set, const std::vector<OwnSweep>& sweeps, const MotionTrack& track) {
+  constexpr std::size_t kFarthest = 5;
+  for (std::size_t apart = 2; apart <= kFarthest && apart < sweeps.size(); ++apart) {
+    double by_steps_m = 0, at_once_m = 0;
+    std::size_t pairs = 0;
+    for (std::size_t i = 0; i + apart < sweeps.size(); ++i) {
+      Pose by_steps = Pose::Identity();
+      for (std::size_t k = i; k < i + apart; ++k) by_steps = by_steps * track.T_previous_sweep[k];
+      const Registration found = register_sweeps(sweeps[i].grid(), sweeps[i + apart].grid(), by_steps);
+      if (!found.converged) continue;
+      ++pairs;
+      by_steps_m += by_steps.translation().norm();
+      at_once_m += found.T_ref_cur.translation().norm();
+    }
+    if (pairs == 0) continue;
+    const auto count = static_cast<double>(pairs);
+    fmt::print("{}, {} apart: {:.4f} m by steps, {:.4f} m at once, {:+.1f} mm ({} pairs)\n", set, apart,
+               by_steps_m / count, at_once_m / count, 1000 * (at_once_m - by_steps_m) / count, pairs);
+  }
 }
 
 // From the planes of the encoded sweeps alone.
@@ -122,8 +154,13 @@ void print_row(const std::string& set, const std::string& method, const MotionTr
 
 void compare(const std::string& name, const std::vector<PointCloud>& sweeps, const std::vector<Pose>& truth,
              const Arguments& arguments) {
-  print_row(name, "own", own_track(sweeps, {}, arguments.reference_bound_m), truth);
-  print_row(name, "own, quick", own_track(sweeps, kQuickRegistration, arguments.reference_bound_m), truth);
+  const auto own = own_sweeps(sweeps);
+  if (arguments.apart) {
+    print_apart(name, own, own_track(own, {}, arguments.reference_bound_m));
+    return;
+  }
+  print_row(name, "own", own_track(own, {}, arguments.reference_bound_m), truth);
+  print_row(name, "own, quick", own_track(own, kQuickRegistration, arguments.reference_bound_m), truth);
   for (const double bound_m : {0.02, 0.05, 0.1})
     print_row(name, fmt::format("planes, {:g} cm", 100 * bound_m), planes_track(sweeps, bound_m), truth);
 #ifdef POINTREEL_WITH_PCL
@@ -153,9 +190,10 @@ void compare_simulated(const Arguments& arguments) {
 }
 
 void run(const Arguments& arguments) {
-  fmt::print(
-      "| drive | method | path m | translation % | rotation deg/100 m | step error cm, median / worst | "
-      "CPU ms per sweep | failures |\n|---|---|---|---|---|---|---|---|\n");
+  if (!arguments.apart)
+    fmt::print(
+        "| drive | method | path m | translation % | rotation deg/100 m | step error cm, median / worst | "
+        "CPU ms per sweep | failures |\n|---|---|---|---|---|---|---|---|\n");
   for (const std::string& folder : arguments.folders) {
     const std::filesystem::path path(folder);
     SweepSet set = load_sweep_set({folder}, (path / "poses.txt").string(), "", 0);
@@ -176,6 +214,7 @@ int main(int argc, char** argv) {
   app.add_option("--speed", arguments.simulated_mps, "Its cruising speed in m/s")->capture_default_str();
   app.add_option("--reference-bound", arguments.reference_bound_m,
                  "Registers against sweeps decoded with this bound in metres");
+  app.add_flag("--apart", arguments.apart, "Distances of sweeps up to five apart, by steps and at once");
   app.add_flag("!--no-pcl", arguments.with_pcl, "Without PCL");
   try {
     app.parse(argc, argv);

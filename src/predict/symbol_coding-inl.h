@@ -71,7 +71,8 @@ POINTREEL_INLINE void learn(SymbolTable& table, const SymbolLanes& cumulative, s
 template <class Coder>
 POINTREEL_INLINE std::size_t code_symbol(Coder& coder, SymbolTable& table, std::size_t symbol) {
   constexpr int kWholeBits = 15;
-  // In units of the whole, less 1/128 of it, which gives every symbol at least 8. The last one ends with it.
+  // In units of the whole, less 1/128 of it, which gives every symbol at least 8. The last one ends with the
+  // whole, less 1, whatever the last of the table is: sums go no higher.
   static constexpr SymbolTable kLeast = [] {
     SymbolTable least;
     for (std::size_t i = 0; i < kSymbols; ++i) least.cumulative[i] = static_cast<std::uint16_t>(8 * (i + 1));
