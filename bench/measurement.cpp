@@ -86,7 +86,7 @@ Measurement measure(const SweepSet& set, const Setting& setting, std::size_t nea
   const auto compare = [&](const StreamHeader& header, const std::vector<DecodedSweep>& sweeps) {
     measurement.range_bound_m = header.bound_m();
     std::vector<std::optional<Result<SweepQuality>>> qualities(sweeps.size());
-    // Not part of any timing, so on all processors whatever the setting says.
+    // Not part of any timing, so on all processors for those that are decoded at once.
     parallel_for(sweeps.size(), resolve_threads(0), [&](std::size_t i) {
       const PointCloud& original = set.sweeps.at(sweeps[i].frame);
       const auto pairs = pair_points(header, original, sweeps[i]);

@@ -91,7 +91,8 @@ MotionTrack own_track(const std::vector<OwnSweep>& sweeps, const RegistrationSet
 }
 
 // Mean distance of sweeps that are a number of sweeps apart, by single steps and at once.
-void print_apart(const std::string& set, const std::vector<OwnSweep>& sweeps, const MotionTrack& track) {
+void print_apart(const std::string& set, const std::vector<OwnSweep>& sweeps, const MotionTrack& track,
+                 double reference_bound_m) {
   constexpr std::size_t kFarthest = 5;
   for (std::size_t apart = 2; apart <= kFarthest && apart < sweeps.size(); ++apart) {
     double by_steps_m = 0, at_once_m = 0;
@@ -99,7 +100,9 @@ void print_apart(const std::string& set, const std::vector<OwnSweep>& sweeps, co
     for (std::size_t i = 0; i + apart < sweeps.size(); ++i) {
       Pose by_steps = Pose::Identity();
       for (std::size_t k = i; k < i + apart; ++k) by_steps = by_steps * track.T_previous_sweep[k];
-      const Registration found = register_sweeps(sweeps[i].grid(), sweeps[i + apart].grid(), by_steps);
+      OwnSweep reference = sweeps[i];
+      quantise(reference.range_m, reference_bound_m);
+      const Registration found = register_sweeps(reference.grid(), sweeps[i + apart].grid(), by_steps);
       if (!found.converged) continue;
       ++pairs;
       by_steps_m += by_steps.translation().norm();
@@ -156,7 +159,7 @@ void compare(const std::string& name, const std::vector<PointCloud>& sweeps, con
              const Arguments& arguments) {
   const auto own = own_sweeps(sweeps);
   if (arguments.apart) {
-    print_apart(name, own, own_track(own, {}, arguments.reference_bound_m));
+    print_apart(name, own, own_track(own, {}, arguments.reference_bound_m), arguments.reference_bound_m);
     return;
   }
   print_row(name, "own", own_track(own, {}, arguments.reference_bound_m), truth);

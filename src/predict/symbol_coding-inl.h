@@ -1,4 +1,4 @@
-// Codes symbols by adaptive tables: all sixteen cumulative probabilities of a table in a register or two.
+// Codes symbols by adaptive tables: all cumulative probabilities of a table in a register or two.
 //
 // 16-bit integers throughout, so that nothing can differ between processors.
 
@@ -46,7 +46,7 @@ POINTREEL_INLINE void store(const SymbolLanes& a, std::uint16_t* lanes) {
     hn::Store(a.part[i], SymbolLanes::Tag(), lanes + i * SymbolLanes::kPartLanes);
 }
 
-// What P(symbol <= i) should have been, given the symbol.
+// What P(symbol <= i) should have been, given the symbol; the last one is where learning ends.
 inline constexpr auto kSymbolTargets = [] {
   std::array<SymbolTable, kSymbols> targets{};
   for (std::size_t symbol = 0; symbol < kSymbols; ++symbol) {

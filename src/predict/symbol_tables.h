@@ -11,7 +11,7 @@ namespace pointreel {
 inline constexpr std::size_t kSymbols = 16;
 
 // A table holds 65536 P(symbol <= i), so that all of it adapts in one SIMD operation. The last one, which
-// every symbol moves the same way, from 0 to 65535, tells how much the table has learnt.
+// every symbol moves the same way, from 0 up to 65408, tells how much the table has learnt.
 struct alignas(32) SymbolTable {
   std::array<std::uint16_t, kSymbols> cumulative{};
 

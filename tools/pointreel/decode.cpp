@@ -84,19 +84,12 @@ bool decode_batch(Decoder& decoder, std::span<const Packet> batch, const FrameRa
   return true;
 }
 
-// All packets: of a file in batches that decode well in parallel, of a pipe one by one, as the sender may not
-// have the next one yet. Behind a damaged packet it goes on with the next whole one. False when writing
-// failed.
+// All packets. Behind a damaged packet it goes on with the next whole one. False when writing failed.
 bool decode_all(ReelReader& reader, bool live, Decoder& decoder, const FrameRange& wanted,
                 const SweepFiles& files, int threads, Written& written) {
-  PacketBatches batches(reader, threads);
-  const auto next = [&] {
-    if (!live) return batches.next();
-    auto packet = reader.read_packet();
-    return packet ? std::vector<Packet>{*std::move(packet)} : std::vector<Packet>();
-  };
+  PacketBatches batches(reader, threads, live);
   for (bool after_damage = false;; after_damage = true) {
-    for (auto batch = next(); !batch.empty(); batch = next()) {
+    for (auto batch = batches.next(); !batch.empty(); batch = batches.next()) {
       if (after_damage) print_note(fmt::format("goes on with frame {}", batch.front().frame));
       after_damage = false;
       if (!decode_batch(decoder, batch, wanted, files, threads, written)) return false;

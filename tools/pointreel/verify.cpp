@@ -40,23 +40,16 @@ class Verifier {
            int threads)
       : header_(header), originals_(originals), decoder_(decoder), threads_(threads) {}
 
-  // Frames may come in any order.
-  Result<void> add(std::span<const Packet> batch) {
-    const Stopwatch start;
-    auto sweeps = decoder_.decode(batch);
-    const double decode_ms = start.elapsed_ms() / static_cast<double>(batch.size());
-    for (const auto& sweep : sweeps) {
-      if (!sweep) return sweep.error();
+  // Whole groups, of which so many packets are `decoded_at_once`. Frames may come in any order.
+  Result<void> add(std::span<const Packet> batch, std::size_t decoded_at_once) {
+    bool temporal = false;
+    for (std::size_t first = 0; first < batch.size(); first += decoded_at_once) {
+      const auto part = batch.subspan(first, std::min(decoded_at_once, batch.size() - first));
+      const auto predicted = add_decoded(part);
+      if (!predicted) return predicted.error();
+      temporal = temporal || *predicted;
     }
-    std::sort(sweeps.begin(), sweeps.end(), [](const auto& a, const auto& b) { return a->frame < b->frame; });
-    const bool temporal =
-        std::any_of(sweeps.begin(), sweeps.end(), [](const auto& sweep) { return sweep->temporal; });
     if (const auto ready = ready_encoder(temporal); !ready) return ready.error();
-    for (auto& sweep : sweeps) {
-      verification_.decode_ms.push_back(decode_ms);
-      if (const auto done = add_sweep(*sweep); !done) return done.error();
-      sweep = DecodedSweep{};  // the originals of the batch are held as well
-    }
     if (const auto done = time_encoder(); !done) return done.error();
     for (const Packet& packet : batch) verification_.bytes += serialize(packet).size();
     return {};
@@ -65,6 +58,25 @@ class Verifier {
   Verification& verification() { return verification_; }
 
  private:
+  // Gives back whether one of them was predicted from the sweep before.
+  Result<bool> add_decoded(std::span<const Packet> packets) {
+    const Stopwatch start;
+    auto sweeps = decoder_.decode(packets);
+    const double decode_ms = start.elapsed_ms() / static_cast<double>(packets.size());
+    for (const auto& sweep : sweeps) {
+      if (!sweep) return sweep.error();
+    }
+    std::sort(sweeps.begin(), sweeps.end(), [](const auto& a, const auto& b) { return a->frame < b->frame; });
+    bool temporal = false;
+    for (auto& sweep : sweeps) {
+      verification_.decode_ms.push_back(decode_ms);
+      temporal = temporal || sweep->temporal;
+      if (const auto done = add_sweep(*sweep); !done) return done.error();
+      sweep = DecodedSweep{};  // the originals of the batch are held as well
+    }
+    return temporal;
+  }
+
   Result<void> add_sweep(const DecodedSweep& sweep) {
     if (sweep.frame >= originals_.size()) {
       return Error{ErrorCode::invalid_argument,
@@ -169,8 +181,8 @@ int run(const VerifyArguments& arguments) {
   Verification& verification = verifier.verification();
   Progress progress("verifying", originals->size());
   PacketBatches batches(reader, resolve_threads(arguments.threads));
-  for (auto batch = batches.next(); !batch.empty(); batch = batches.next()) {
-    if (const auto done = verifier.add(batch); !done) {
+  for (auto batch = batches.next_groups(); !batch.empty(); batch = batches.next_groups()) {
+    if (const auto done = verifier.add(batch, batches.one_by_one() ? 1 : batch.size()); !done) {
       print_error(done.error());
       return kFailed;
     }
