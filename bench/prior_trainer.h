@@ -53,7 +53,9 @@ class PriorMean {
   void symbols(const SymbolTables<kTables>& tables) {
     constexpr int kMostCount = 48;
     for (const SymbolTable& table : tables) {
-      set(symbols_learnt(table.cumulative[kSymbols - 1], 2 * kMostCount) / 2);
+      const auto* learnt = std::lower_bound(kLearntAfter.begin(), kLearntAfter.begin() + 2 * kMostCount,
+                                            table.cumulative[kSymbols - 1]);
+      set(static_cast<int>(learnt - kLearntAfter.begin()) / 2);
       int before = 0;
       for (std::size_t i = 0; i < kSymbols; ++i) {
         const int end = i + 1 < kSymbols ? table.cumulative[i] : 65535;
@@ -84,12 +86,6 @@ class PriorMean {
   struct Number {
     double sum = 0, count = 0;
   };
-
-  static int symbols_learnt(std::uint16_t learnt, int most) {
-    int count = 0;
-    while (count < most && kLearntAfter[static_cast<std::size_t>(count)] < learnt) ++count;
-    return count;
-  }
 
   // The byte that state_from_priors() reads. Priors count for half as many bits as training saw, at most.
   static int byte_of(Probability16 p_one, std::uint32_t count) {

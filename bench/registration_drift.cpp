@@ -40,21 +40,22 @@ struct Arguments {
   bool apart = false;
 };
 
-// As a decoder has them when every point must be within the bound; 0: as measured.
-void quantise(std::vector<float>& range_m, double bound_m) {
-  if (!(bound_m > 0)) return;
-  const auto step_m = static_cast<float>(2 * bound_m);
-  for (float& range : range_m) {
-    if (range > 0) range = std::max(1.0F, std::round(range / step_m)) * step_m;
-  }
-}
-
 // A sweep on the grid that the encoder finds.
 struct OwnSweep {
   MeasuredGrid measured;
   std::vector<float> range_m;
   RangeGrid grid() const { return measured.with(range_m); }
 };
+
+// As a decoder has it when every point must be within the bound; 0: as measured.
+OwnSweep decoded(OwnSweep sweep, double bound_m) {
+  if (!(bound_m > 0)) return sweep;
+  const auto step_m = static_cast<float>(2 * bound_m);
+  for (float& range_m : sweep.range_m) {
+    if (range_m > 0) range_m = std::max(1.0F, std::round(range_m / step_m)) * step_m;
+  }
+  return sweep;
+}
 
 std::vector<OwnSweep> own_sweeps(const std::vector<PointCloud>& sweeps) {
   std::vector<OwnSweep> own;
@@ -63,8 +64,7 @@ std::vector<OwnSweep> own_sweeps(const std::vector<PointCloud>& sweeps) {
     estimator.add(sweep);
     if (!estimator.model()) throw std::runtime_error("no sensor grid found");
     const GriddedSweep gridded = project(*estimator.model(), sweep);
-    const auto range_m = ranges_by_cell(gridded);
-    own.push_back({MeasuredGrid(*estimator.model(), gridded.grid), {range_m.begin(), range_m.end()}});
+    own.push_back({MeasuredGrid(*estimator.model(), gridded.grid), ranges_by_cell(gridded)});
   }
   return own;
 }
@@ -75,8 +75,7 @@ MotionTrack own_track(const std::vector<OwnSweep>& sweeps, const RegistrationSet
   MotionTrack track;
   std::optional<Pose> guess;
   for (std::size_t i = 1; i < sweeps.size(); ++i) {
-    OwnSweep reference = sweeps[i - 1];
-    quantise(reference.range_m, reference_bound_m);
+    const OwnSweep reference = decoded(sweeps[i - 1], reference_bound_m);
     const std::clock_t begin = std::clock();
     const Registration found = register_sweeps(reference.grid(), sweeps[i].grid(), guess, settings);
     track.cpu_ms.push_back(1000.0 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
@@ -100,8 +99,7 @@ void print_apart(const std::string& set, const std::vector<OwnSweep>& sweeps, co
     for (std::size_t i = 0; i + apart < sweeps.size(); ++i) {
       Pose by_steps = Pose::Identity();
       for (std::size_t k = i; k < i + apart; ++k) by_steps = by_steps * track.T_previous_sweep[k];
-      OwnSweep reference = sweeps[i];
-      quantise(reference.range_m, reference_bound_m);
+      const OwnSweep reference = decoded(sweeps[i], reference_bound_m);
       const Registration found = register_sweeps(reference.grid(), sweeps[i + apart].grid(), by_steps);
       if (!found.converged) continue;
       ++pairs;
