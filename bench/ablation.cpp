@@ -37,7 +37,7 @@ Bits bits_of(const std::vector<TrainingDrive>& drives, const CodingKind& kind, f
     std::vector<BandState> states;
     for (std::size_t i = 0; i < drive.sweeps.size(); ++i) {
       GridImage image = drive.sweeps[i].image;
-      const bool counts = i > 0 && drive.sweeps[i].T_previous_this.has_value();
+      const bool counts = i > 0 && drive.sweeps[i].motion.has_value();
       const CodingKind this_kind{kind.predicted && counts, kind.effort};
       ReferenceImage reference;
       if (this_kind.predicted) reference = reference_of(drive, i, previous_m);

@@ -69,38 +69,48 @@ std::vector<OwnSweep> own_sweeps(const std::vector<PointCloud>& sweeps) {
   return own;
 }
 
+struct OwnTrack {
+  MotionTrack steps;
+  MotionPerTurn per_turn;  // learnt along the way
+};
+
 // Each against the one before; the last motion is the guess.
-MotionTrack own_track(const std::vector<OwnSweep>& sweeps, const RegistrationSettings& settings,
-                      double reference_bound_m) {
-  MotionTrack track;
+OwnTrack own_track(const std::vector<OwnSweep>& sweeps, const RegistrationSettings& settings,
+                   double reference_bound_m) {
+  OwnTrack track;
+  auto& [steps, per_turn] = track;
   std::optional<Pose> guess;
   for (std::size_t i = 1; i < sweeps.size(); ++i) {
     const OwnSweep reference = decoded(sweeps[i - 1], reference_bound_m);
     const std::clock_t begin = std::clock();
-    const Registration found = register_sweeps(reference.grid(), sweeps[i].grid(), guess, settings);
-    track.cpu_ms.push_back(1000.0 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
-    track.T_previous_sweep.push_back(found.T_ref_cur);
+    const Registration found =
+        register_sweeps(reference.grid(), sweeps[i].grid(), guess, settings, per_turn.value());
+    steps.cpu_ms.push_back(1000.0 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
+    steps.T_previous_sweep.push_back(found.T_ref_cur);
+    per_turn.learn(found.turning);
     guess.reset();
     if (found.converged)
       guess = found.T_ref_cur;
     else
-      ++track.failures;
+      ++steps.failures;
   }
   return track;
 }
 
 // Mean distance of sweeps that are a number of sweeps apart, by single steps and at once.
-void print_apart(const std::string& set, const std::vector<OwnSweep>& sweeps, const MotionTrack& track,
-                 double reference_bound_m) {
+void print_apart(const std::string& set, const std::vector<OwnSweep>& sweeps, double reference_bound_m) {
+  const auto [track, per_turn] = own_track(sweeps, {}, reference_bound_m);
   constexpr std::size_t kFarthest = 5;
   for (std::size_t apart = 2; apart <= kFarthest && apart < sweeps.size(); ++apart) {
+    const double share_per_turn = per_turn.value() / static_cast<double>(apart);
     double by_steps_m = 0, at_once_m = 0;
     std::size_t pairs = 0;
     for (std::size_t i = 0; i + apart < sweeps.size(); ++i) {
       Pose by_steps = Pose::Identity();
       for (std::size_t k = i; k < i + apart; ++k) by_steps = by_steps * track.T_previous_sweep[k];
       const OwnSweep reference = decoded(sweeps[i], reference_bound_m);
-      const Registration found = register_sweeps(reference.grid(), sweeps[i + apart].grid(), by_steps);
+      const Registration found =
+          register_sweeps(reference.grid(), sweeps[i + apart].grid(), by_steps, {}, share_per_turn);
       if (!found.converged) continue;
       ++pairs;
       by_steps_m += by_steps.translation().norm();
@@ -157,11 +167,11 @@ void compare(const std::string& name, const std::vector<PointCloud>& sweeps, con
              const Arguments& arguments) {
   const auto own = own_sweeps(sweeps);
   if (arguments.apart) {
-    print_apart(name, own, own_track(own, {}, arguments.reference_bound_m), arguments.reference_bound_m);
+    print_apart(name, own, arguments.reference_bound_m);
     return;
   }
-  print_row(name, "own", own_track(own, {}, arguments.reference_bound_m), truth);
-  print_row(name, "own, quick", own_track(own, kQuickRegistration, arguments.reference_bound_m), truth);
+  print_row(name, "own", own_track(own, {}, arguments.reference_bound_m).steps, truth);
+  print_row(name, "own, quick", own_track(own, kQuickRegistration, arguments.reference_bound_m).steps, truth);
   for (const double bound_m : {0.02, 0.05, 0.1})
     print_row(name, fmt::format("planes, {:g} cm", 100 * bound_m), planes_track(sweeps, bound_m), truth);
 #ifdef POINTREEL_WITH_PCL

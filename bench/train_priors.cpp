@@ -32,7 +32,7 @@ Means train(const std::vector<TrainingDrive>& drives, const CodingKind& kind, fl
       for (std::size_t i = 0; i < drive.sweeps.size(); ++i) {
         GridImage image = drive.sweeps[i].image;
         ReferenceImage reference;
-        const bool has_reference = i > 0 && drive.sweeps[i].T_previous_this.has_value();
+        const bool has_reference = i > 0 && drive.sweeps[i].motion.has_value();
         if (kind.predicted && has_reference) reference = reference_of(drive, i, previous_m);
         if (!kind.predicted || has_reference) {
           for (const Band& band : choose_bands(image, step_m)) {

@@ -41,14 +41,18 @@ SensorModel model_of(const std::vector<PointCloud>& clouds, const std::filesyste
   return *estimator.model();
 }
 
-std::optional<Pose> registered(const SensorModel& model, const GriddedSweep& previous,
-                               const GriddedSweep& sweep, const std::optional<Pose>& guess) {
+std::optional<SweepMotion> registered(const SensorModel& model, const GriddedSweep& previous,
+                                      const GriddedSweep& sweep, const std::optional<SweepMotion>& last,
+                                      MotionPerTurn& per_turn) {
   const MeasuredGrid reference(model, previous.grid), current(model, sweep.grid);
   const auto reference_m = ranges_by_cell(previous), current_m = ranges_by_cell(sweep);
+  const auto guess = last ? std::optional(last->T_ref_cur) : std::nullopt;
+  const double motion_per_turn = per_turn.value();
   const Registration registration =
-      register_sweeps(reference.with(reference_m), current.with(current_m), guess);
+      register_sweeps(reference.with(reference_m), current.with(current_m), guess, {}, motion_per_turn);
   if (!registration.converged) return std::nullopt;
-  return registration.T_ref_cur;
+  per_turn.learn(registration.turning);
+  return SweepMotion{registration.T_ref_cur, motion_per_turn};
 }
 
 TrainingDrive drive_of(const Folder& files) {
@@ -56,7 +60,8 @@ TrainingDrive drive_of(const Folder& files) {
   for (const auto& path : files) clouds.push_back(require(read_cloud(path)));
   TrainingDrive drive{model_of(clouds, files.front()), {}};
   GriddedSweep previous;
-  std::optional<Pose> motion;
+  std::optional<SweepMotion> motion;
+  MotionPerTurn per_turn;
   for (const PointCloud& cloud : clouds) {
     GriddedSweep sweep = project(drive.model, cloud);
     const CodingGrid grid(drive.model, sweep.grid);
@@ -67,8 +72,8 @@ TrainingDrive drive_of(const Folder& files) {
             sweep.range_m[i];
       }
     }
-    if (!drive.sweeps.empty()) motion = registered(drive.model, previous, sweep, motion);
-    training.T_previous_this = motion;
+    if (!drive.sweeps.empty()) motion = registered(drive.model, previous, sweep, motion, per_turn);
+    training.motion = motion;
     drive.sweeps.push_back(std::move(training));
     previous = std::move(sweep);
   }
@@ -89,7 +94,7 @@ ReferenceImage reference_of(const TrainingDrive& drive, std::size_t i,
   image.range_m = previous_range_m;
   const ReferenceSweep previous{drive.sweeps[i - 1].grid, std::move(image), {}};
   WarpMemory memory;
-  return warp(drive.model, drive.sweeps[i].grid, previous, *drive.sweeps[i].T_previous_this, 1, memory);
+  return warp(drive.model, drive.sweeps[i].grid, previous, *drive.sweeps[i].motion, 1, memory);
 }
 
 }  // namespace pointreel

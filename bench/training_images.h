@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pointreel/motion.h"
+#include "motion/sweep_motion.h"
 #include "predict/grid_image.h"
 #include "predict/reference_image.h"
 #include "sensor/sensor_model.h"
@@ -16,8 +16,8 @@ namespace pointreel {
 struct TrainingSweep {
   GridImage image;
   SweepGrid grid;
-  // From the sweep before in the same folder, by registration; none for the first, or where that fails.
-  std::optional<Pose> T_previous_this;
+  // Since the sweep before in the same folder, by registration; none for the first, or where that fails.
+  std::optional<SweepMotion> motion;
 };
 
 // Consecutive sweeps of one folder.

@@ -46,7 +46,7 @@ Result<RangeQuantiser> get_quantiser(ByteReader& reader, const SensorModel& mode
 struct Head {
   SweepGrid grid;
   RangeQuantiser quantiser;
-  std::optional<Pose> T_ref_cur;  // of predicted frames
+  std::optional<SweepMotion> motion;  // of predicted frames
 };
 
 Result<Head> decode_head(const SensorModel& model, bool predicted, ByteReader& reader) {
@@ -57,9 +57,9 @@ Result<Head> decode_head(const SensorModel& model, bool predicted, ByteReader& r
   if (grid->column_count() == 0) return Error{ErrorCode::corrupt, "its grid has no columns"};
   Head head{*std::move(grid), *std::move(quantiser), std::nullopt};
   if (predicted) {
-    const auto T_ref_cur = get_relative_pose(reader);
-    if (!T_ref_cur) return T_ref_cur.error();
-    head.T_ref_cur = *T_ref_cur;
+    const auto motion = get_sweep_motion(reader);
+    if (!motion) return motion.error();
+    head.motion = *motion;
   }
   return head;
 }
@@ -74,7 +74,7 @@ Result<GriddedPlanes> decode_gridded_planes(const GeometrySetting& setting, cons
   const CodingGrid coding(model, head->grid);
   std::optional<EarlierPlanes> earlier;
   if (reference != nullptr)
-    earlier.emplace(EarlierPlanes{reference->grid, reference->tiles, *head->T_ref_cur});
+    earlier.emplace(EarlierPlanes{reference->grid, reference->tiles, head->motion->T_ref_cur});
   auto tiles = decode_planes({model, head->grid, coding, max_error_m, threads, plane_stage},
                              rays_of(model, head->grid, coding), earlier ? &*earlier : nullptr, reader);
   if (!tiles) return tiles.error();
@@ -90,7 +90,7 @@ Result<DecodedCells> decode_cells(const GeometrySetting& setting, const CodedIma
   CodingGrid coding(model, grid);
   std::optional<Prediction> prediction;
   if (reference != nullptr)
-    prediction.emplace(Prediction{reference->reference, reference->planes, *head->T_ref_cur});
+    prediction.emplace(Prediction{reference->reference, reference->planes, *head->motion});
   PlaneSection planes;
   if (plane_stage != PlaneStage::none) {
     const SensorRays rays = rays_of(model, grid, coding);

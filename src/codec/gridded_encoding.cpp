@@ -52,9 +52,9 @@ EncodedCells encode_cells(const GeometrySetting& setting, const GriddedSweep& sw
   ByteWriter writer;
   std::optional<Prediction> rounded;
   if (prediction != nullptr) {
-    put_relative_pose(writer, prediction->T_ref_cur);
+    put_sweep_motion(writer, prediction->motion);
     statistics.grid_bits += bits_of(writer.size());
-    rounded.emplace(Prediction{prediction->reference, prediction->planes, *quantised(prediction->T_ref_cur)});
+    rounded.emplace(Prediction{prediction->reference, prediction->planes, *quantised(prediction->motion)});
   }
   PlaneSection planes;
   if (plane_stage != PlaneStage::none) {

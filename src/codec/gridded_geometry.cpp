@@ -12,7 +12,7 @@ GeometrySetting geometry_setting(const StreamHeader& header, const SensorModel& 
 
 std::optional<EarlierPlanes> earlier_planes(const std::optional<Prediction>& prediction) {
   if (!prediction) return std::nullopt;
-  return EarlierPlanes{prediction->reference.grid, prediction->planes, prediction->T_ref_cur};
+  return EarlierPlanes{prediction->reference.grid, prediction->planes, prediction->motion.T_ref_cur};
 }
 
 }  // namespace pointreel

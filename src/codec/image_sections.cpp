@@ -14,7 +14,7 @@ namespace {
 // nullptr for a frame by itself.
 const ReferenceImage* reference_image(const ImageSetting& setting, const Prediction* prediction) {
   if (prediction == nullptr) return nullptr;
-  return &warp(setting.model, setting.grid, prediction->reference, prediction->T_ref_cur, setting.threads,
+  return &warp(setting.model, setting.grid, prediction->reference, prediction->motion, setting.threads,
                setting.warp_memory);
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/bytes.h"
 #include "base/parallel.h"
+#include "motion/sweep_motion.h"
 #include "planes/plane_tiles.h"
 #include "pointreel/codec.h"
 #include "predict/grid_image.h"
@@ -31,7 +32,7 @@ struct ImageSetting {
 struct Prediction {
   const ReferenceSweep& reference;
   const PlaneTiles& planes;  // of the reference; none without method `planes`
-  Pose T_ref_cur = Pose::Identity();
+  SweepMotion motion;
 };
 
 // `prediction`: nullptr for a frame by itself. The ranges are replaced by what the decoder will see. Gives

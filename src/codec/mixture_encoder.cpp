@@ -81,9 +81,8 @@ class MixtureEncoder final : public Encoder::Implementation {
     CodedSweep coded{*std::move(prepared), {}};
     PreparedSweep& sweep = coded.prepared;
     const auto prediction =
-        sweep.T_ref_cur
-            ? std::optional(Prediction{last_image_.reference, last_image_.planes, *sweep.T_ref_cur})
-            : std::nullopt;
+        sweep.motion ? std::optional(Prediction{last_image_.reference, last_image_.planes, *sweep.motion})
+                     : std::nullopt;
     coded.cells =
         encode_cells(geometry_setting(header_, *sweep.model, threads_, warp_memory_, beside), sweep.gridded,
                      *sweep.cells, prediction ? &*prediction : nullptr, sweep.packet.statistics);
@@ -103,7 +102,7 @@ class MixtureEncoder final : public Encoder::Implementation {
       if (packet.kind == FrameKind::key) {
         put_model(*sweep.model, writer, packet.statistics);
       } else {
-        writer.put(sweep.T_ref_cur ? SweepCoding::predicted : SweepCoding::gridded);
+        writer.put(sweep.motion ? SweepCoding::predicted : SweepCoding::gridded);
       }
       encoded =
           encode_points({*sweep.model, header_.max_error_m, threads_}, sweep.cloud, std::move(sweep.gridded),

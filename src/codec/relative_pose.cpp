@@ -1,8 +1,15 @@
 #include "codec/relative_pose.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace pointreel {
+namespace {
+
+constexpr double kPartsPerTurn = 64;
+
+}  // namespace
 
 void put_relative_pose(ByteWriter& writer, const Pose& T_key_sensor) {
   Eigen::Quaterniond q(T_key_sensor.linear());
@@ -36,6 +43,28 @@ Result<Pose> quantised(const Pose& T_key_sensor) {
   put_relative_pose(writer, T_key_sensor);
   ByteReader reader(writer.bytes());
   return get_relative_pose(reader);
+}
+
+void put_sweep_motion(ByteWriter& writer, const SweepMotion& motion) {
+  put_relative_pose(writer, motion.T_ref_cur);
+  writer.put(static_cast<std::int8_t>(std::lround(kPartsPerTurn * std::clamp(motion.per_turn, -1.0, 1.0))));
+}
+
+Result<SweepMotion> get_sweep_motion(ByteReader& reader) {
+  auto pose = get_relative_pose(reader);
+  if (!pose) return pose.error();
+  const auto parts = reader.get<std::int8_t>();
+  if (!reader.ok()) return Error{ErrorCode::truncated, "the frame's payload ends within its motion"};
+  if (std::abs(parts) > kPartsPerTurn)
+    return Error{ErrorCode::corrupt, "the frame's motion per turn is more than all of its motion"};
+  return SweepMotion{*std::move(pose), parts / kPartsPerTurn};
+}
+
+Result<SweepMotion> quantised(const SweepMotion& motion) {
+  ByteWriter writer;
+  put_sweep_motion(writer, motion);
+  ByteReader reader(writer.bytes());
+  return get_sweep_motion(reader);
 }
 
 }  // namespace pointreel

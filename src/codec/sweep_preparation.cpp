@@ -88,7 +88,7 @@ Result<PreparedSweep> SweepPreparation::prepare(PosedSweep sweep) {
     const auto range_of_cell_m = ranges_by_cell(*gridded);
     const auto register_sweep = [&] {
       if (!temporal_) return;
-      prepared.T_ref_cur =
+      prepared.motion =
           alignment_.follow(*model_, gridded->grid, range_of_cell_m, sweep.T_world_sensor, starts_group());
     };
     const auto find_cells = [&] {
@@ -138,7 +138,7 @@ void SweepPreparation::name_packet(PreparedSweep& prepared) {
   if (packet.kind == FrameKind::key && packet.frame != 0) ++next_group_;
   packet.group = next_group_;
   packet.reference_frame = packet.kind == FrameKind::key ? packet.frame
-                           : prepared.T_ref_cur          ? packet.frame - 1
+                           : prepared.motion             ? packet.frame - 1
                                                          : *model_frame_;
   if (!prepared.model) return;
   ++model_age_;

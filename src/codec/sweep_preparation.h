@@ -26,7 +26,7 @@ struct PreparedSweep {
   // Where there is a model:
   GriddedSweep gridded;
   std::optional<SweepCells> cells;
-  std::optional<Pose> T_ref_cur;  // to the sweep before, which this one is to be predicted from
+  std::optional<SweepMotion> motion;  // since the sweep before, which this one is to be predicted from
 };
 
 class SweepPreparation {

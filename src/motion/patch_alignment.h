@@ -1,7 +1,7 @@
 // align_patches: the pose at which patches of one sweep's surfaces fit a reference, whatever that is made of.
 //
 // A reference has `void measure(PatchBlock&) const`, which fills in how far its surfaces are from the planes
-// of patches.
+// of patches, and `motion_per_turn` (SweepMotion::per_turn).
 #pragma once
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "base/trigonometry.h"
 #include "motion/patch_block.h"
 #include "motion/patch_evidence.h"
 #include "motion/registration.h"
@@ -21,11 +22,20 @@ namespace pointreel {
 namespace patch_alignment {
 
 inline constexpr float kInlierM = 0.1F;
+inline constexpr float kFinestM = 0.2F;  // kernel of the last rounds
 inline constexpr double kLeastInlierShare = 0.5;
 inline constexpr int kLeastInliers = 100;
 inline constexpr double kStillM = 1e-3;  // a step that moves nothing by more ends the rounds
 
-// Calls use(its center moved, its normal turned, distance of the reference from its plane) for each patch
+// By how many turns (within a quarter) farther around a point is seen in this sweep than in the reference.
+inline float turns_between(const Eigen::Vector3f& in_reference_m, const Eigen::Vector3f& here_m) {
+  constexpr auto kTurnsPerRad = static_cast<float>(1 / kTurn);
+  const float lengths_m2 = std::sqrt(in_reference_m.head<2>().squaredNorm() * here_m.head<2>().squaredNorm());
+  const float sine_m2 = in_reference_m.x() * here_m.y() - in_reference_m.y() * here_m.x();
+  return kTurnsPerRad * sine_m2 / std::max(lengths_m2, 1e-6F);
+}
+
+// Calls use(patch, its center moved, its normal turned, distance of the reference from its plane) for each
 // that has a partner.
 template <class Reference, class Use>
 void for_each_match(const Pose& T_ref_cur, const Reference& reference, std::span<const SurfacePatch> patches,
@@ -37,14 +47,17 @@ void for_each_match(const Pose& T_ref_cur, const Reference& reference, std::span
     block.count = std::min(PatchBlock::kMost, patches.size() - first);
     for (std::size_t i = 0; i < block.count; ++i) {
       const SurfacePatch& patch = patches[first + i];
-      block.set(i, rotation * patch.center_m + translation_m, rotation * patch.normal);
+      const Eigen::Vector3f turned_m = rotation * patch.center_m;
+      const float turns = turns_between(turned_m + translation_m, patch.center_m);
+      block.set(i, turned_m + (1 + reference.motion_per_turn * turns) * translation_m,
+                rotation * patch.normal);
     }
     for (std::size_t i = block.count; i % PatchBlock::kLanes != 0; ++i)
       block.set(i, Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero());
     reference.measure(block);
     for (std::size_t i = 0; i < block.count; ++i) {
       if (block.distance_m[i] < PatchBlock::kNoPartner)
-        use(block.center_m(i), block.normal(i), block.distance_m[i]);
+        use(patches[first + i], block.center_m(i), block.normal(i), block.distance_m[i]);
     }
   }
 }
@@ -60,24 +73,24 @@ Evidence evidence_for(const Pose& T_ref_cur, const Reference& reference,
                       std::span<const SurfacePatch> patches, float kernel_m) {
   Evidence evidence;
   float hessian[6][6] = {}, gradient[6] = {};
-  for_each_match(T_ref_cur, reference, patches,
-                 [&](const Eigen::Vector3f& p_m, const Eigen::Vector3f& normal, float distance_m) {
-                   if (std::fabs(distance_m) < kInlierM) {
-                     ++evidence.inliers;
-                     evidence.inlier_squares_m2 += static_cast<double>(distance_m * distance_m);
-                   }
-                   const float share = robust_share(distance_m, kernel_m);
-                   const float weight = share * share;
-                   const Eigen::Vector3f turning = p_m.cross(normal);
-                   const float jacobian[6] = {normal.x(),  normal.y(),  normal.z(),
-                                              turning.x(), turning.y(), turning.z()};
-                   for (int i = 0; i < 6; ++i) {
-                     const float weighted = weight * jacobian[i];
-                     gradient[i] += distance_m * weighted;
-                     for (int j = i; j < 6; ++j) hessian[i][j] += weighted * jacobian[j];
-                   }
-                   evidence.weight += static_cast<double>(weight);
-                 });
+  for_each_match(
+      T_ref_cur, reference, patches,
+      [&](const SurfacePatch&, const Eigen::Vector3f& p_m, const Eigen::Vector3f& normal, float distance_m) {
+        if (std::fabs(distance_m) < kInlierM) {
+          ++evidence.inliers;
+          evidence.inlier_squares_m2 += static_cast<double>(distance_m * distance_m);
+        }
+        const float share = robust_share(distance_m, kernel_m);
+        const float weight = share * share;
+        const Eigen::Vector3f turning = p_m.cross(normal);
+        const float jacobian[6] = {normal.x(), normal.y(), normal.z(), turning.x(), turning.y(), turning.z()};
+        for (int i = 0; i < 6; ++i) {
+          const float weighted = weight * jacobian[i];
+          gradient[i] += distance_m * weighted;
+          for (int j = i; j < 6; ++j) hessian[i][j] += weighted * jacobian[j];
+        }
+        evidence.weight += static_cast<double>(weight);
+      });
   const Eigen::Matrix<float, 6, 6> half =
       Eigen::Matrix<float, 6, 6>::Map(&hessian[0][0]);  // column by column
   evidence.hessian = half.selfadjointView<Eigen::Lower>().toDenseMatrix().cast<double>();
@@ -93,7 +106,7 @@ double mean_cost_m2(const Pose& T_ref_cur, const Reference& reference, std::span
   int matches = 0;
   float sum_m2 = 0;
   for_each_match(T_ref_cur, reference, patches,
-                 [&](const Eigen::Vector3f&, const Eigen::Vector3f&, float distance_m) {
+                 [&](const SurfacePatch&, const Eigen::Vector3f&, const Eigen::Vector3f&, float distance_m) {
                    ++matches;
                    sum_m2 += distance_m * distance_m * robust_share(distance_m, kernel_m);
                  });
@@ -142,7 +155,6 @@ enum class Start : std::uint8_t { near, far };
 template <class Reference>
 Registration register_from(const Pose& start_pose, Start start, const Reference& reference,
                            std::span<const SurfacePatch> patches, const RegistrationSettings& settings) {
-  constexpr float kFinestM = 0.1F;
   const auto coarse =
       patches.first(std::min(patches.size(), static_cast<std::size_t>(std::max(0, settings.coarse_patches))));
   Pose pose = start_pose;

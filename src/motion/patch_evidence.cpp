@@ -23,11 +23,15 @@ double step_m(const Vector6& step) {
   return step.head<3>().norm() + kLeverArmM * step.tail<3>().norm();
 }
 
-Vector6 solve(const Evidence& evidence) {
+Matrix6 damped_hessian(const Evidence& evidence) {
   Matrix6 damped = evidence.hessian;
   const Vector6 damping = (kDamping * evidence.weight + 1e-9) * scale().cwiseInverse().cwiseAbs2();
   damped.diagonal() += damping;
-  const Vector6 step = damped.ldlt().solve(-evidence.gradient);
+  return damped;
+}
+
+Vector6 solve(const Evidence& evidence) {
+  const Vector6 step = damped_hessian(evidence).ldlt().solve(-evidence.gradient);
   return step.allFinite() ? step : Vector6::Zero();
 }
 

@@ -19,7 +19,10 @@ struct Evidence {
   double inlier_squares_m2 = 0;
 };
 
-// A damped step of Gauss and Newton: where the patches leave a direction open, the pose stays as it is.
+// Where the patches leave a direction open, the pose stays as it is.
+Matrix6 damped_hessian(const Evidence& evidence);
+
+// A damped step of Gauss and Newton.
 Vector6 solve(const Evidence& evidence);
 
 Pose moved(const Vector6& step, const Pose& pose);

@@ -9,6 +9,7 @@
 
 #include "base/arc_tangent-inl.h"
 #include "base/lanes-inl.h"
+#include "motion/grid_matching.h"
 #include "motion/patch_block.h"
 #include "motion/range_grid.h"
 
@@ -75,65 +76,100 @@ POINTREEL_INLINE Int8 columns_towards(const GridRays& grid, const Int8& row, con
   return gather(directions.column_of_bin.data(), truncated(where(counts, place)) & all_ints<8>(bins - 1));
 }
 
-// Of the cells that look towards points or just beside them, those whose returns are most nearly as far away.
-struct NearReturns {
-  Int8 row, column;
-  Float8 rho_m, away_m;  // away_m infinite: none has a return
+// Where patches are: their points and normals.
+struct PatchLanes {
+  Float8 x_m, y_m, z_m, normal_x, normal_y, normal_z;
 
-  POINTREEL_INLINE NearReturns(const GridRays& grid, const Int8& middle, const Int8& middle_column,
-                               const Float8& at_rho_m)
-      : row(middle), column(middle_column), rho_m(all<8>(0)), away_m(all<8>(PatchBlock::kNoPartner)) {
+  PatchLanes(const PatchBlock& block, std::size_t first)
+      : x_m(load<8>(&block.x_m[first])),
+        y_m(load<8>(&block.y_m[first])),
+        z_m(load<8>(&block.z_m[first])),
+        normal_x(load<8>(&block.normal_x[first])),
+        normal_y(load<8>(&block.normal_y[first])),
+        normal_z(load<8>(&block.normal_z[first])) {}
+};
+
+// How far patches are from the returns of a row's cells, along their normals.
+class RowDistances {
+ public:
+  POINTREEL_INLINE RowDistances(const GridRays& grid, const Int8& row, const PatchLanes& patch)
+      : grid_(grid), row_begin_(row * all_ints<8>(grid.column_count())) {
     using Row = GridRays::Row;
     const Row& first = grid.rows().front();
-    const Int8 columns = all_ints<8>(grid.column_count());
+    const Float8 cosine = of_rows(first, &Row::cos_azimuth, row),
+                 sine = of_rows(first, &Row::sin_azimuth, row);
+    // The normal in the row's turned axes.
+    ahead_ = patch.normal_x * cosine + patch.normal_y * sine;
+    beside_ = patch.normal_y * cosine - patch.normal_x * sine;
+    up_ = patch.normal_z * of_rows(first, &Row::slope, row);
+    side_offset_m_ = of_rows(first, &Row::side_offset_m, row);
+    cos_elevation_ = of_rows(first, &Row::cos_elevation, row);
+    plane_m_ = (patch.normal_x * patch.x_m + patch.normal_y * patch.y_m) +
+               patch.normal_z * (patch.z_m - of_rows(first, &Row::offset_m, row));
+  }
+
+  // `found`: whether there are returns.
+  POINTREEL_INLINE Float8 to_column(const Int8& column, Mask<8>& found) const {
+    const Float8 cosine = gather(grid_.cos_azimuth().data(), column);
+    const Float8 sine = gather(grid_.sin_azimuth().data(), column);
+    const Float8 range_m = gather(grid_.ranges_m().data(), row_begin_ + column);
+    found = all<8>(0) < range_m;
+    const Float8 along_ray = (ahead_ * cosine + beside_ * sine) + up_;
+    const Float8 along_side = beside_ * cosine - ahead_ * sine;
+    return plane_m_ - (range_m * cos_elevation_) * along_ray - side_offset_m_ * along_side;
+  }
+
+ private:
+  const GridRays& grid_;
+  Int8 row_begin_;
+  Float8 ahead_, beside_, up_, side_offset_m_, cos_elevation_, plane_m_;
+};
+
+// Means of the distances to the returns around cells, those near the planes above all: what else is there,
+// such as behind an edge, hardly counts. The return that is nearest, in place of a mean, would be the one
+// whose noise makes it so, wherever the patch is: motions came out short of what had changed since the guess.
+struct MeanDistances {
+  static constexpr float kNearM = 0.3F;  // at this distance a quarter counts
+  Float8 mean_m;
+  Mask<8> any;  // there are returns
+
+  POINTREEL_INLINE MeanDistances(const GridRays& grid, const Int8& middle, const Int8& middle_column,
+                                 const PatchLanes& patch) {
+    const GridRays::Row& first = grid.rows().front();
+    const int rows_beside = half_patch_rows(grid) - 1;  // few rows are far apart
+    const Int8 columns = all_ints<8>(grid.column_count()), last_row = all_ints<8>(grid.row_count() - 1);
     const Int8 turned = turned_by(first, middle);
-    for (int down = -1; down <= 1; ++down) {
-      const Int8 here =
-          smaller(larger(middle + all_ints<8>(down), all_ints<8>(0)), all_ints<8>(grid.row_count() - 1));
-      const Float8 cos_elevation = of_rows(first, &Row::cos_elevation, here);
-      const Int8 same = in_turn(middle_column + turned - turned_by(first, here), columns);
-      const Int8 row_begin = here * columns;
-      for (int beside = -1; beside <= 1; ++beside) {
-        const Int8 there = in_turn(same + all_ints<8>(beside), columns);
-        const Float8 range_m = gather(grid.ranges_m().data(), row_begin + there);
-        const Float8 there_rho_m = range_m * cos_elevation;
-        const Float8 there_away_m = absolute(there_rho_m - at_rho_m);
-        const Mask<8> better = (all<8>(0) < range_m) & (there_away_m < away_m);
-        row = select(as_int_mask(better), here, row);
-        column = select(as_int_mask(better), there, column);
-        rho_m = select(better, there_rho_m, rho_m);
-        away_m = select(better, there_away_m, away_m);
+    Float8 sum_m = all<8>(0), weights = all<8>(0);
+    for (int down = -rows_beside; down <= rows_beside; ++down) {
+      const Int8 row = smaller(larger(middle + all_ints<8>(down), all_ints<8>(0)), last_row);
+      const Int8 same = in_turn(middle_column + turned - turned_by(first, row), columns);
+      const RowDistances distances(grid, row, patch);
+      for (int beside = -kHalfPatchColumns; beside <= kHalfPatchColumns; ++beside) {
+        Mask<8> found;
+        const Float8 distance_m = distances.to_column(in_turn(same + all_ints<8>(beside), columns), found);
+        const Float8 share = all<8>(kNearM * kNearM) / (all<8>(kNearM * kNearM) + distance_m * distance_m);
+        const Float8 weight = where(found, share * share);
+        sum_m = sum_m + weight * distance_m;
+        weights = weights + weight;
       }
     }
+    any = all<8>(0) < weights;
+    mean_m = sum_m / select(any, weights, all<8>(1));
   }
 };
 
 inline void measure(const GridRays& grid, PatchBlock& block) {
   constexpr float kNearestM = 0.1F, kFarthestM = 1e6F;
-  using Row = GridRays::Row;
   for (std::size_t i = 0; i < block.count; i += 8) {
-    const Float8 x_m = load<8>(&block.x_m[i]), y_m = load<8>(&block.y_m[i]), z_m = load<8>(&block.z_m[i]);
-    const Float8 rho_m = square_root(x_m * x_m + y_m * y_m);
-    Mask<8> counts =
-        (all<8>(kNearestM) < rho_m) & (rho_m < all<8>(kFarthestM)) & (absolute(z_m) < all<8>(kFarthestM));
-    const Int8 row = rows_towards(grid, z_m, rho_m, counts);
-    const NearReturns near(grid, row, columns_towards(grid, row, x_m, y_m, rho_m, counts), rho_m);
-    const Row& first = grid.rows().front();
-    const Float8 cos_column = gather(grid.cos_azimuth().data(), near.column);
-    const Float8 sin_column = gather(grid.sin_azimuth().data(), near.column);
-    const Float8 cos_row = of_rows(first, &Row::cos_azimuth, near.row);
-    const Float8 sin_row = of_rows(first, &Row::sin_azimuth, near.row);
-    const Float8 cosine = cos_column * cos_row - sin_column * sin_row;
-    const Float8 sine = sin_column * cos_row + cos_column * sin_row;
-    const Float8 side_m = of_rows(first, &Row::side_offset_m, near.row);
-    const Float8 away_x = x_m - (near.rho_m * cosine - side_m * sine);
-    const Float8 away_y = y_m - (near.rho_m * sine + side_m * cosine);
-    const Float8 away_z =
-        z_m - (of_rows(first, &Row::slope, near.row) * near.rho_m + of_rows(first, &Row::offset_m, near.row));
-    const Float8 distance_m = (load<8>(&block.normal_x[i]) * away_x + load<8>(&block.normal_y[i]) * away_y) +
-                              load<8>(&block.normal_z[i]) * away_z;
-    const Float8 none = all<8>(PatchBlock::kNoPartner);
-    store(select(counts & (near.away_m < none), distance_m, none), &block.distance_m[i]);
+    const PatchLanes patch(block, i);
+    const Float8 rho_m = square_root(patch.x_m * patch.x_m + patch.y_m * patch.y_m);
+    Mask<8> counts = (all<8>(kNearestM) < rho_m) & (rho_m < all<8>(kFarthestM)) &
+                     (absolute(patch.z_m) < all<8>(kFarthestM));
+    const Int8 row = rows_towards(grid, patch.z_m, rho_m, counts);
+    const Int8 column = columns_towards(grid, row, patch.x_m, patch.y_m, rho_m, counts);
+    const MeanDistances distances(grid, row, column, patch);
+    store(select(counts & distances.any, distances.mean_m, all<8>(PatchBlock::kNoPartner)),
+          &block.distance_m[i]);
   }
 }
 

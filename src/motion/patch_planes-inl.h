@@ -46,13 +46,11 @@ struct MeanPoint {
   }
 };
 
-// Of a patch's columns, from its first: all of them, those left and those right of the middle one, the middle
-// three.
+// Of a patch's columns, from its first: all of them, those left and those right of the middle one.
 static_assert(kHalfPatchColumns == 2);
 alignas(32) inline constexpr float kAllColumns[8] = {1, 1, 1, 1, 1, 0, 0, 0};
 alignas(32) inline constexpr float kLeftColumns[8] = {1, 1, 0, 0, 0, 0, 0, 0};
 alignas(32) inline constexpr float kRightColumns[8] = {0, 0, 0, 1, 1, 0, 0, 0};
-alignas(32) inline constexpr float kMiddleColumns[8] = {0, 1, 1, 1, 0, 0, 0, 0};
 
 // The returns of eight columns, of which the first few count where their range is near that of the center.
 POINTREEL_INLINE RowPoints points_near(const GridRays& sweep, int row, std::size_t first, float center_m) {
@@ -73,9 +71,9 @@ POINTREEL_INLINE RowPoints points_near(const GridRays& sweep, int row, std::size
 }
 
 // Its normal is across the two lines from the left to the right half's mean, and from the upper to the lower
-// one's, which points missing here and there do not turn. Its center is the mean of the middle row's three:
-// that of all lies behind a convex surface, so that what is ahead would seem to come nearer by less than it
-// does. False: there is none.
+// one's, which points missing here and there do not turn. Its center is the mean of the middle row, as wide
+// as what it is compared with (patch_measuring-inl.h): both lie as far behind a convex surface. False: there
+// is none.
 inline bool plane_around(const GridRays& sweep, int row, int column, int half_rows, SurfacePatch& patch) {
   constexpr float kFlatWithinM = 0.04F;  // root mean square: noise, and rows that are not quite calibrated
   constexpr float kLeastReturns = 0.7F;  // share of the patch's cells
@@ -102,7 +100,7 @@ inline bool plane_around(const GridRays& sweep, int row, int column, int half_ro
   const Eigen::Vector3f across = (right.point_m - left.point_m).cross(below.point_m - above.point_m);
   const float length = across.norm();
   if (!(length > 1e-9F)) return false;
-  patch = {MeanPoint(rows[half_rows], load<8>(kMiddleColumns)).point_m, across / length};
+  patch = {MeanPoint(rows[half_rows], one).point_m, across / length};
 
   const float middle_m = patch.normal.dot(all_m.point_m);
   Float8 squares_m2 = all<8>(0);

@@ -8,6 +8,7 @@
 
 #include <optional>
 
+#include "motion/motion_per_turn.h"
 #include "motion/range_grid.h"
 #include "pointreel/motion.h"
 
@@ -31,20 +32,21 @@ struct Registration {
   // Of the six degrees of freedom the one that fewest patches see, 1: all of them do. In a tunnel near 0:
   // there the guess is kept, and cannot be far wrong for what is seen.
   double weakest_share = 0;
+  TurnEvidence turning;  // for MotionPerTurn
 };
 
 // Both sweeps uncompensated, as measured; best before coding, since coarse steps of range bend the ground
 // alike in every sweep. `guess`: a pose that may be near, such as the last motion of a vehicle that goes on,
 // or that of a pose file. Without a good one displacements up to about 3 m and 5 degrees are found. Any grids
-// and any guess give a finite pose.
+// and any guess give a finite pose. `motion_per_turn`: SweepMotion::per_turn.
 Registration register_sweeps(const GridRays& reference, const GridRays& current,
-                             const std::optional<Pose>& guess = {},
-                             const RegistrationSettings& settings = {});
+                             const std::optional<Pose>& guess = {}, const RegistrationSettings& settings = {},
+                             double motion_per_turn = 0);
 
 inline Registration register_sweeps(const RangeGrid& reference, const RangeGrid& current,
                                     const std::optional<Pose>& guess = {},
-                                    const RegistrationSettings& settings = {}) {
-  return register_sweeps(GridRays(reference), GridRays(current), guess, settings);
+                                    const RegistrationSettings& settings = {}, double motion_per_turn = 0) {
+  return register_sweeps(GridRays(reference), GridRays(current), guess, settings, motion_per_turn);
 }
 
 }  // namespace pointreel

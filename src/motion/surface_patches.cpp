@@ -40,7 +40,7 @@ int facing_at_first_sight(const GridRays& sweep, int row, int column, int half_r
 }  // namespace
 
 std::vector<SurfacePatch> find_surface_patches(const GridRays& sweep, int most) {
-  const int half_rows = std::clamp(sweep.row_count() / 24, 1, kMostHalfPatchRows);
+  const int half_rows = half_patch_rows(sweep);
   const std::int64_t rows = sweep.row_count() - std::int64_t{2} * half_rows, columns = sweep.column_count();
   std::vector<SurfacePatch> patches;
   if (rows < 1 || columns < std::int64_t{4} * kHalfPatchColumns || most < 1) return patches;

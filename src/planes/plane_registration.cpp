@@ -69,9 +69,8 @@ Support support_of(const Pose& pose, const PlanesByDirection& planes, std::span<
     moved_pose.translation() += step * kStepM * direction;
     int inliers = 0;
     for_each_match(moved_pose, planes, std::span<const SurfacePatch>(across),
-                   [&](const Eigen::Vector3f&, const Eigen::Vector3f&, float distance_m) {
-                     inliers += std::fabs(distance_m) < kInlierM ? 1 : 0;
-                   });
+                   [&](const SurfacePatch&, const Eigen::Vector3f&, const Eigen::Vector3f&,
+                       float distance_m) { inliers += std::fabs(distance_m) < kInlierM ? 1 : 0; });
     if (step == 0) support.here = inliers;
     if (std::abs(step) <= kStillHere || inliers <= support.elsewhere) continue;
     support.elsewhere = inliers;

@@ -31,6 +31,7 @@ class PlanesByDirection {
   // For align_patches: how far the point of each patch is from where the plane of the nearest tile that faces
   // the same way is nearest to it, along the patch's normal.
   void measure(PatchBlock& block) const;
+  static constexpr float motion_per_turn = 0;  // not known here: all is taken as seen at once
 
   // Sorted by bin, for SIMD code, which looks at kAtOnce of them: as many follow that are nowhere.
   struct Tiles {

@@ -42,6 +42,18 @@ POINTREEL_INLINE Positions moved(const Positions& p, const PointMotion& motion) 
           (r[6] * p.x_m + r[7] * p.y_m) + (r[8] * p.z_m + all<8>(t[2]))};
 }
 
+// Of points `at` which a motion moves those of the reference: where they are at the time when the sensor
+// looks there now.
+POINTREEL_INLINE Positions later(const Positions& at, const Positions& before, const Float8& rho_before_m,
+                                 const PointMotion& motion) {
+  const Float8 rho_m = square_root(at.x_m * at.x_m + at.y_m * at.y_m);
+  const Float8 sine =
+      (before.x_m * at.y_m - before.y_m * at.x_m) / larger(rho_before_m * rho_m, all<8>(1e-30F));
+  const Float8 more = motion.per_sine * sine;
+  const auto& t = motion.translation_m;
+  return {at.x_m + more * all<8>(t[0]), at.y_m + more * all<8>(t[1]), at.z_m + more * all<8>(t[2])};
+}
+
 // The rows of points as numbers between those of the cones that they lie between. All lanes look at one cone
 // after the other, up and down from that of `start`: points of one row stay near each other. Lanes that do
 // not count are anywhere.
@@ -104,8 +116,9 @@ inline void move_points_of_row(const GridImage& reference, int row, const WarpSo
   for (std::size_t c = 0; c < columns; c += 8) {
     const Float8 found_m = load_first<8>(ranges_m + c, columns - c);
     const Float8 range_m = where(found_m < all<8>(kFarthestM), found_m);
-    const Positions p =
-        moved(positions_on_rays(ray, load<8>(sin_column + c), load<8>(cos_column + c), range_m), motion);
+    const Positions before =
+        positions_on_rays(ray, load<8>(sin_column + c), load<8>(cos_column + c), range_m);
+    const Positions p = later(moved(before, motion), before, ray.cos_elevation * range_m, motion);
     const Float8 rho_m = square_root(p.x_m * p.x_m + p.y_m * p.y_m);
     Mask<8> counts = (all<8>(0) < range_m) & (all<8>(kNearestM) < rho_m) & (rho_m < all<8>(kFarthestM)) &
                      (absolute(p.z_m) < all<8>(kFarthestM));

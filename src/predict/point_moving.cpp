@@ -70,10 +70,10 @@ WarpTarget::WarpTarget(const SensorModel& model, const SweepGrid& grid, const Co
   add_cone(0, -kOutOfReachM);
 }
 
-PointMotion::PointMotion(const Pose& T_ref_cur) {
+PointMotion::PointMotion(const SweepMotion& motion) : per_sine(static_cast<float>(motion.per_turn / kTurn)) {
   // The inverse: p_cur = R^T (p_ref - t).
-  const Eigen::Matrix3d r = T_ref_cur.linear();
-  const Eigen::Vector3d t = T_ref_cur.translation();
+  const Eigen::Matrix3d r = motion.T_ref_cur.linear();
+  const Eigen::Vector3d t = motion.T_ref_cur.translation();
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) rotation[3 * i + j] = static_cast<float>(r(j, i));
     translation_m[i] = static_cast<float>(-((r(0, i) * t(0) + r(1, i) * t(1)) + r(2, i) * t(2)));

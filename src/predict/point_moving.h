@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "pointreel/motion.h"
+#include "motion/sweep_motion.h"
 #include "predict/coding_grid.h"
 #include "predict/column_finder.h"
 #include "predict/grid_image.h"
@@ -43,11 +43,13 @@ struct WarpTarget {
   WarpTarget(const SensorModel& model, const SweepGrid& grid, const CodingGrid& coding);
 };
 
-// p_cur = rotation p_ref + translation_m, rotation row by row.
+// p_cur = rotation p_ref + (1 + per_sine sin(a_cur - a_ref)) translation_m, rotation row by row; azimuths
+// a_cur without that sine (SweepMotion).
 struct PointMotion {
   float rotation[9], translation_m[3];
+  float per_sine;
 
-  explicit PointMotion(const Pose& T_ref_cur);
+  explicit PointMotion(const SweepMotion& motion);
 };
 
 // First step: finds the place of the points of one row of the reference.

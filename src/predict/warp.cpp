@@ -58,11 +58,11 @@ std::vector<std::int32_t> columns_before(const SweepGrid& reference, const Sweep
 }  // namespace
 
 const ReferenceImage& warp(const SensorModel& model, const SweepGrid& grid, const ReferenceSweep& reference,
-                           const Pose& T_ref_cur, int threads, WarpMemory& memory) {
+                           const SweepMotion& sweep_motion, int threads, WarpMemory& memory) {
   const CodingGrid coding(model, grid), coding_before(model, reference.grid);
   const WarpSource source(model, reference.grid, coding_before);
   const WarpTarget target(model, grid, coding);
-  const PointMotion motion(T_ref_cur);
+  const PointMotion motion(sweep_motion);
   const GridImage& before = reference.image;
   WarpedPoints& points = memory.points;
   WarpCanvas& canvas = memory.canvas;

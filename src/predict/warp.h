@@ -1,7 +1,7 @@
 // warp: an earlier sweep as this one's sensor would see it from where it stands now.
 #pragma once
 
-#include "pointreel/motion.h"
+#include "motion/sweep_motion.h"
 #include "predict/reference_image.h"
 #include "predict/reference_sweep.h"
 #include "predict/warp_canvas.h"
@@ -18,12 +18,12 @@ struct WarpMemory {
   ReferenceImage image;
 };
 
-// Every point of the reference moves into the current sweep's coordinates (`T_ref_cur` leads back); the cell
+// Every point of the reference moves into the current sweep's coordinates (`motion` leads back); the cell
 // of the grid nearest to it takes the range at which its ray meets the surface that the point and its
 // neighbours span. Of several points the nearest wins. Cells without a point that surfaces beside them go on
 // into count as filled. Deterministic on all machines and for any number of threads.
 // The image is that of `memory`, until the next call.
 const ReferenceImage& warp(const SensorModel& model, const SweepGrid& grid, const ReferenceSweep& reference,
-                           const Pose& T_ref_cur, int threads, WarpMemory& memory);
+                           const SweepMotion& motion, int threads, WarpMemory& memory);
 
 }  // namespace pointreel

@@ -81,5 +81,40 @@ TEST(RelativePose, NonsenseIsAnError) {
   }
 }
 
+TEST(SweepMotion, ComesBackWithItsMotionPerTurn) {
+  Pose pose = Pose::Identity();
+  pose.translation() << 1.25, -0.5, 0.125;
+  for (const double per_turn : {0.0, 1.0, -1.0, 0.3, -0.77}) {
+    const auto back = quantised(SweepMotion{pose, per_turn});
+    ASSERT_TRUE(back);
+    EXPECT_TRUE(back->T_ref_cur.isApprox(pose, 1e-12));
+    EXPECT_NEAR(back->per_turn, per_turn, 1.0 / 128);
+    EXPECT_EQ(quantised(*back)->per_turn, back->per_turn);
+  }
+}
+
+TEST(SweepMotion, NonsenseIsAnError) {
+  const auto parse_motion = [](int parts) {
+    ByteWriter writer;
+    put_relative_pose(writer, Pose::Identity());
+    writer.put(static_cast<std::int8_t>(parts));
+    ByteReader reader(writer.bytes());
+    return get_sweep_motion(reader);
+  };
+  EXPECT_TRUE(parse_motion(64));
+  EXPECT_TRUE(parse_motion(-64));
+  for (const int parts : {65, 127, -65, -128}) {
+    const auto motion = parse_motion(parts);
+    ASSERT_FALSE(motion) << parts;
+    EXPECT_EQ(motion.error().code, ErrorCode::corrupt);
+  }
+  ByteWriter pose_only;
+  put_relative_pose(pose_only, Pose::Identity());
+  ByteReader reader(pose_only.bytes());
+  const auto motion = get_sweep_motion(reader);
+  ASSERT_FALSE(motion);
+  EXPECT_EQ(motion.error().code, ErrorCode::truncated);
+}
+
 }  // namespace
 }  // namespace pointreel

@@ -1,4 +1,4 @@
-// A scene of planes and pillars, and what a spinning sensor with 32 rows sees of it while it stands still.
+// A scene of planes and pillars, and what a spinning sensor with 32 rows sees of it, at rest or on its way.
 #pragma once
 
 #include <cmath>
@@ -38,8 +38,10 @@ struct SceneView {
   RangeGrid grid() const { return {rows, column_azimuth_rad, range_m}; }
 };
 
-inline SceneView view_of(const std::vector<Plane>& scene, const Pose& T_world_sensor,
-                         const std::vector<Pillar>& pillars = {}) {
+// `T_world_sensor(azimuth_rad)`: where the sensor is when it looks there.
+template <class PoseAt>
+SceneView view_along(const std::vector<Plane>& scene, const PoseAt& T_world_sensor,
+                     const std::vector<Pillar>& pillars = {}) {
   constexpr int kRows = 32, kColumns = 900;
   constexpr double kFarthestM = 120;
   SceneView view;
@@ -55,9 +57,10 @@ inline SceneView view_of(const std::vector<Plane>& scene, const Pose& T_world_se
       const double azimuth_rad = column_rad + row.azimuth_rad;
       const Eigen::Vector3d side(-std::sin(azimuth_rad), std::cos(azimuth_rad), 0);
       const Eigen::Vector3d ahead(std::cos(azimuth_rad), std::sin(azimuth_rad), row.slope);
-      const Eigen::Vector3d begin = T_world_sensor * Eigen::Vector3d(row.side_offset_m * side +
-                                                                     row.offset_m * Eigen::Vector3d::UnitZ());
-      const Eigen::Vector3d along = T_world_sensor.linear() * ahead;
+      const Pose pose = T_world_sensor(azimuth_rad);
+      const Eigen::Vector3d begin =
+          pose * Eigen::Vector3d(row.side_offset_m * side + row.offset_m * Eigen::Vector3d::UnitZ());
+      const Eigen::Vector3d along = pose.linear() * ahead;
       double nearest_m = std::numeric_limits<double>::infinity();  // as rho
       for (const Plane& plane : scene) {
         const double rho_m = (plane.distance_m - plane.normal.dot(begin)) / plane.normal.dot(along);
@@ -72,6 +75,12 @@ inline SceneView view_of(const std::vector<Plane>& scene, const Pose& T_world_se
     }
   }
   return view;
+}
+
+inline SceneView view_of(const std::vector<Plane>& scene, const Pose& T_world_sensor,
+                         const std::vector<Pillar>& pillars = {}) {
+  return view_along(
+      scene, [&](double) { return T_world_sensor; }, pillars);
 }
 
 inline std::vector<Plane> ground() {

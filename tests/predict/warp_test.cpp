@@ -32,8 +32,10 @@ SweepGrid full_turn(std::uint32_t first_tick = 0) {
   return grid;
 }
 
-// A room of 20 x 14 m, floor 1.8 m below: the range along each ray, from a sensor at `x_m`, `y_m`.
-GridImage room_from(const SensorModel& model, const SweepGrid& grid, double x_m, double y_m, double yaw_rad) {
+// A room of 20 x 14 m, floor 1.8 m below: the range along each ray, from a sensor at `x_m`, `y_m` that moves
+// along x by `x_per_turn_m` while it turns once.
+GridImage room_from(const SensorModel& model, const SweepGrid& grid, double x_m, double y_m, double yaw_rad,
+                    double x_per_turn_m = 0) {
   const CodingGrid coding(model, grid);
   const RayTable rays(model, grid);
   std::vector<float> range_of_cell_m(coding.rows() * coding.columns());
@@ -41,7 +43,8 @@ GridImage room_from(const SensorModel& model, const SweepGrid& grid, double x_m,
     for (std::size_t column = 0; column < coding.columns(); ++column) {
       const auto inside = [&](float range_m) {
         const Point3f p = rays.measured_position(row, column, range_m);
-        const double x = x_m + std::cos(yaw_rad) * p.x - std::sin(yaw_rad) * p.y;
+        const double turns = std::atan2(p.y, p.x) / kTurn;
+        const double x = x_m + x_per_turn_m * turns + std::cos(yaw_rad) * p.x - std::sin(yaw_rad) * p.y;
         const double y = y_m + std::sin(yaw_rad) * p.x + std::cos(yaw_rad) * p.y;
         return std::fabs(x) < 10 && std::fabs(y) < 7 && p.z > -1.8F && p.z < 3;
       };
@@ -62,9 +65,9 @@ Pose moved(double x_m, double y_m, double yaw_rad) {
 }
 
 ReferenceImage warp(const SensorModel& model, const SweepGrid& grid, const ReferenceSweep& reference,
-                    const Pose& T_ref_cur, int threads) {
+                    const Pose& T_ref_cur, int threads, double per_turn = 0) {
   WarpMemory memory;
-  return pointreel::warp(model, grid, reference, T_ref_cur, threads, memory);
+  return pointreel::warp(model, grid, reference, {T_ref_cur, per_turn}, threads, memory);
 }
 
 TEST(Warp, ShowsARoomFromAnotherPlace) {
@@ -84,6 +87,34 @@ TEST(Warp, ShowsARoomFromAnotherPlace) {
     std::sort(errors_m.begin(), errors_m.end());
     EXPECT_LT(errors_m[errors_m.size() / 2], 0.002F) << x_m;
     EXPECT_LT(errors_m[errors_m.size() * 9 / 10], 0.1F) << x_m;
+  }
+}
+
+// Far to the side of the wall ahead: what the sensor passes is seen earlier or later in the next turn.
+TEST(Warp, GoesByTheTimeAtWhichAPlaceIsSeen) {
+  const SensorModel model = sensor(32);
+  const SweepGrid reference_grid = full_turn(), grid = full_turn(1);
+  constexpr double kMotionM = 1.5;
+  const auto median_off_m = [&](const ReferenceImage& warped, const GridImage& now) {
+    constexpr int kRowsAboveTheFloor = 12;
+    std::vector<float> off_m;
+    for (int row = 0; row < kRowsAboveTheFloor; ++row) {
+      for (int column = now.columns / 16; column < now.columns / 12; ++column) {  // 22 to 30 degrees
+        const std::size_t cell = now.index(row, column);
+        if (warped.range_m[cell] > 0) off_m.push_back(std::fabs(warped.range_m[cell] - now.range_m[cell]));
+      }
+    }
+    std::nth_element(off_m.begin(), off_m.begin() + static_cast<std::ptrdiff_t>(off_m.size() / 2),
+                     off_m.end());
+    return off_m.at(off_m.size() / 2);
+  };
+  for (const double per_turn : {1.0, -1.0, 0.5}) {
+    const ReferenceSweep reference{
+        reference_grid, room_from(model, reference_grid, 0, 0, 0, per_turn * kMotionM), {}};
+    const GridImage now = room_from(model, grid, kMotionM, 0, 0, per_turn * kMotionM);
+    const Pose motion = moved(kMotionM, 0, 0);
+    EXPECT_LT(median_off_m(warp(model, grid, reference, motion, 1, per_turn), now), 0.002F) << per_turn;
+    EXPECT_GT(median_off_m(warp(model, grid, reference, motion, 1), now), 0.005F) << per_turn;
   }
 }
 
@@ -151,9 +182,9 @@ TEST(Warp, DoesNotDependOnWhatItsMemoryHeld) {
     SweepGrid grid = full_turn();
     grid.column_tick.resize(columns);
     const ReferenceSweep reference{grid, room_from(model, grid, 0, 0, 0), {}};
-    const Pose motion = moved(0.7, 0, 0.05);
+    const SweepMotion motion{moved(0.7, 0, 0.05), -1};
     const ReferenceImage& reused = pointreel::warp(model, grid, reference, motion, 1, memory);
-    const ReferenceImage fresh = warp(model, grid, reference, motion, 1);
+    const ReferenceImage fresh = warp(model, grid, reference, motion.T_ref_cur, 1, motion.per_turn);
     EXPECT_EQ(reused.range_m, fresh.range_m) << columns;
     EXPECT_EQ(reused.hits, fresh.hits) << columns;
   }
@@ -168,7 +199,7 @@ TEST(Warp, StaysFiniteForAnyMotionAndAnyGrid) {
     const GridImage image{5, static_cast<int>(columns), std::vector<float>(5 * columns, 4.0F)};
     const ReferenceSweep reference{grid, image, {}};
     for (const double far_m : {0.0, 4.0, 1e6, 1e30, static_cast<double>(std::numeric_limits<float>::max())}) {
-      const ReferenceImage warped = warp(model, grid, reference, moved(far_m, -far_m, kPi), 1);
+      const ReferenceImage warped = warp(model, grid, reference, moved(far_m, -far_m, kPi), 1, -1);
       for (const float range_m : warped.range_m) ASSERT_TRUE(std::isfinite(range_m) && range_m >= 0);
     }
   }
