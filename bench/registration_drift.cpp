@@ -75,16 +75,14 @@ struct OwnTrack {
 };
 
 // Each against the one before; the last motion is the guess.
-OwnTrack own_track(const std::vector<OwnSweep>& sweeps, const RegistrationSettings& settings,
-                   double reference_bound_m) {
+OwnTrack own_track(const std::vector<OwnSweep>& sweeps, double reference_bound_m) {
   OwnTrack track;
   auto& [steps, per_turn] = track;
   std::optional<Pose> guess;
   for (std::size_t i = 1; i < sweeps.size(); ++i) {
     const OwnSweep reference = decoded(sweeps[i - 1], reference_bound_m);
     const std::clock_t begin = std::clock();
-    const Registration found =
-        register_sweeps(reference.grid(), sweeps[i].grid(), guess, settings, per_turn.value());
+    const Registration found = register_sweeps(reference.grid(), sweeps[i].grid(), guess, per_turn.value());
     steps.cpu_ms.push_back(1000.0 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
     steps.T_previous_sweep.push_back(found.T_ref_cur);
     per_turn.learn(found.turning);
@@ -99,7 +97,7 @@ OwnTrack own_track(const std::vector<OwnSweep>& sweeps, const RegistrationSettin
 
 // Mean distance of sweeps that are a number of sweeps apart, by single steps and at once.
 void print_apart(const std::string& set, const std::vector<OwnSweep>& sweeps, double reference_bound_m) {
-  const auto [track, per_turn] = own_track(sweeps, {}, reference_bound_m);
+  const auto [track, per_turn] = own_track(sweeps, reference_bound_m);
   constexpr std::size_t kFarthest = 5;
   for (std::size_t apart = 2; apart <= kFarthest && apart < sweeps.size(); ++apart) {
     const double share_per_turn = per_turn.value() / static_cast<double>(apart);
@@ -110,7 +108,7 @@ void print_apart(const std::string& set, const std::vector<OwnSweep>& sweeps, do
       for (std::size_t k = i; k < i + apart; ++k) by_steps = by_steps * track.T_previous_sweep[k];
       const OwnSweep reference = decoded(sweeps[i], reference_bound_m);
       const Registration found =
-          register_sweeps(reference.grid(), sweeps[i + apart].grid(), by_steps, {}, share_per_turn);
+          register_sweeps(reference.grid(), sweeps[i + apart].grid(), by_steps, share_per_turn);
       if (!found.converged) continue;
       ++pairs;
       by_steps_m += by_steps.translation().norm();
@@ -170,8 +168,7 @@ void compare(const std::string& name, const std::vector<PointCloud>& sweeps, con
     print_apart(name, own, arguments.reference_bound_m);
     return;
   }
-  print_row(name, "own", own_track(own, {}, arguments.reference_bound_m).steps, truth);
-  print_row(name, "own, quick", own_track(own, kQuickRegistration, arguments.reference_bound_m).steps, truth);
+  print_row(name, "own", own_track(own, arguments.reference_bound_m).steps, truth);
   for (const double bound_m : {0.02, 0.05, 0.1})
     print_row(name, fmt::format("planes, {:g} cm", 100 * bound_m), planes_track(sweeps, bound_m), truth);
 #ifdef POINTREEL_WITH_PCL

@@ -49,7 +49,7 @@ std::optional<SweepMotion> registered(const SensorModel& model, const GriddedSwe
   const auto guess = last ? std::optional(last->T_ref_cur) : std::nullopt;
   const double motion_per_turn = per_turn.value();
   const Registration registration =
-      register_sweeps(reference.with(reference_m), current.with(current_m), guess, {}, motion_per_turn);
+      register_sweeps(reference.with(reference_m), current.with(current_m), guess, motion_per_turn);
   if (!registration.converged) return std::nullopt;
   per_turn.learn(registration.turning);
   return SweepMotion{registration.T_ref_cur, motion_per_turn};

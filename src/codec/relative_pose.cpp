@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 
 namespace pointreel {
 namespace {
 
-constexpr double kPartsPerTurn = 64;
+constexpr double kPartsOfMotion = 64;
 
 }  // namespace
 
@@ -47,7 +48,7 @@ Result<Pose> quantised(const Pose& T_key_sensor) {
 
 void put_sweep_motion(ByteWriter& writer, const SweepMotion& motion) {
   put_relative_pose(writer, motion.T_ref_cur);
-  writer.put(static_cast<std::int8_t>(std::lround(kPartsPerTurn * std::clamp(motion.per_turn, -1.0, 1.0))));
+  writer.put(static_cast<std::int8_t>(std::lround(kPartsOfMotion * std::clamp(motion.per_turn, -1.0, 1.0))));
 }
 
 Result<SweepMotion> get_sweep_motion(ByteReader& reader) {
@@ -55,9 +56,9 @@ Result<SweepMotion> get_sweep_motion(ByteReader& reader) {
   if (!pose) return pose.error();
   const auto parts = reader.get<std::int8_t>();
   if (!reader.ok()) return Error{ErrorCode::truncated, "the frame's payload ends within its motion"};
-  if (std::abs(parts) > kPartsPerTurn)
+  if (std::abs(parts) > kPartsOfMotion)
     return Error{ErrorCode::corrupt, "the frame's motion per turn is more than all of its motion"};
-  return SweepMotion{*std::move(pose), parts / kPartsPerTurn};
+  return SweepMotion{*std::move(pose), parts / kPartsOfMotion};
 }
 
 Result<SweepMotion> quantised(const SweepMotion& motion) {

@@ -17,8 +17,7 @@ namespace pointreel {
 class SweepAlignment {
  public:
   // `registers`: false for the motion of the poses given, or without them none.
-  SweepAlignment(bool registers, const RegistrationSettings& settings)
-      : registers_(registers), settings_(settings) {}
+  explicit SweepAlignment(bool registers) : registers_(registers) {}
 
   // Takes the next sweep, its ranges by cell (ranges_by_cell()). The motion since the sweep before, before
   // motion compensation; none when it `is_key`, or when the two cannot be registered. Given poses are where
@@ -41,8 +40,7 @@ class SweepAlignment {
     if (!is_key && reference_) {
       std::optional<Pose> guess = last_motion_;
       if (T_world_reference_ && T_world_sensor) guess = T_world_reference_->inverse() * *T_world_sensor;
-      const Registration registration =
-          register_sweeps(*reference_, current, guess, settings_, per_turn_.value());
+      const Registration registration = register_sweeps(*reference_, current, guess, per_turn_.value());
       last_motion_.reset();
       if (registration.converged) {
         last_motion_ = registration.T_ref_cur;
@@ -58,7 +56,6 @@ class SweepAlignment {
 
  private:
   bool registers_;
-  RegistrationSettings settings_;
   std::optional<GridRays> reference_;
   std::vector<float> reference_m_;  // that it looks at
   std::optional<Pose> T_world_reference_;

@@ -15,7 +15,7 @@ HWY_EXPORT(measure);
 HWY_EXPORT(plane_around);
 
 void measure_patches(const GridRays& reference, PatchBlock& block) {
-  if (reference.row_count() == 0) {
+  if (reference.row_count() == 0 || reference.column_count() <= 2 * kHalfPatchColumns) {
     block.distance_m.fill(PatchBlock::kNoPartner);
     return;
   }

@@ -9,12 +9,13 @@
 
 namespace pointreel {
 
-// Fills the distances: means over the returns of the cells that look towards the patches or just beside them.
+// Fills the distances: means over the returns of the cells that look towards the patches or just beside them,
+// kHalfPatchColumns to each side and, where rows are many, a row up and down.
 void measure_patches(const GridRays& reference, PatchBlock& block);
 
 // Cells to each side of a patch's center: narrow things such as posts tell best how far the sensor went.
 inline constexpr int kHalfPatchColumns = 2;
-// As many rows up and down.
+// At most; one where rows are few, and far apart.
 inline constexpr int kMostHalfPatchRows = 2;
 inline int half_patch_rows(const GridRays& sweep) {
   return std::clamp(sweep.row_count() / 24, 1, kMostHalfPatchRows);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -19,15 +20,21 @@
 #include "motion/surface_patches.h"
 
 namespace pointreel {
+
+struct AlignmentSettings {
+  int coarse_patches;  // of the rounds that find the way
+  int rounds;          // at most, of the last ones, which take all patches
+};
+
 namespace patch_alignment {
 
 inline constexpr float kInlierM = 0.1F;
-inline constexpr float kFinestM = 0.2F;  // kernel of the last rounds
+inline constexpr float kFinestM = 0.1F;  // kernel of the last rounds
 inline constexpr double kLeastInlierShare = 0.5;
 inline constexpr int kLeastInliers = 100;
 inline constexpr double kStillM = 1e-3;  // a step that moves nothing by more ends the rounds
 
-// By how many turns (within a quarter) farther around a point is seen in this sweep than in the reference.
+// By how many turns farther around a point is seen in this sweep than in the reference, as the sine goes.
 inline float turns_between(const Eigen::Vector3f& in_reference_m, const Eigen::Vector3f& here_m) {
   constexpr auto kTurnsPerRad = static_cast<float>(1 / kTurn);
   const float lengths_m2 = std::sqrt(in_reference_m.head<2>().squaredNorm() * here_m.head<2>().squaredNorm());
@@ -35,21 +42,28 @@ inline float turns_between(const Eigen::Vector3f& in_reference_m, const Eigen::V
   return kTurnsPerRad * sine_m2 / std::max(lengths_m2, 1e-6F);
 }
 
-// Calls use(patch, its center moved, its normal turned, distance of the reference from its plane) for each
-// that has a partner.
+// A patch in the reference's coordinates that has a partner there.
+struct Match {
+  Eigen::Vector3f center_m, normal;
+  float distance_m;  // of the reference from its plane
+  float turns;       // turns_between() its center in the reference and here
+};
+
+// Calls use(match) for each.
 template <class Reference, class Use>
 void for_each_match(const Pose& T_ref_cur, const Reference& reference, std::span<const SurfacePatch> patches,
                     const Use& use) {
   const Eigen::Matrix3f rotation = T_ref_cur.linear().cast<float>();
   const Eigen::Vector3f translation_m = T_ref_cur.translation().cast<float>();
   PatchBlock block;
+  std::array<float, PatchBlock::kMost> turns;
   for (std::size_t first = 0; first < patches.size(); first += block.count) {
     block.count = std::min(PatchBlock::kMost, patches.size() - first);
     for (std::size_t i = 0; i < block.count; ++i) {
       const SurfacePatch& patch = patches[first + i];
       const Eigen::Vector3f turned_m = rotation * patch.center_m;
-      const float turns = turns_between(turned_m + translation_m, patch.center_m);
-      block.set(i, turned_m + (1 + reference.motion_per_turn * turns) * translation_m,
+      turns[i] = turns_between(turned_m + translation_m, patch.center_m);
+      block.set(i, turned_m + (1 + reference.motion_per_turn * turns[i]) * translation_m,
                 rotation * patch.normal);
     }
     for (std::size_t i = block.count; i % PatchBlock::kLanes != 0; ++i)
@@ -57,7 +71,7 @@ void for_each_match(const Pose& T_ref_cur, const Reference& reference, std::span
     reference.measure(block);
     for (std::size_t i = 0; i < block.count; ++i) {
       if (block.distance_m[i] < PatchBlock::kNoPartner)
-        use(patches[first + i], block.center_m(i), block.normal(i), block.distance_m[i]);
+        use(Match{block.center_m(i), block.normal(i), block.distance_m[i], turns[i]});
     }
   }
 }
@@ -73,24 +87,24 @@ Evidence evidence_for(const Pose& T_ref_cur, const Reference& reference,
                       std::span<const SurfacePatch> patches, float kernel_m) {
   Evidence evidence;
   float hessian[6][6] = {}, gradient[6] = {};
-  for_each_match(
-      T_ref_cur, reference, patches,
-      [&](const SurfacePatch&, const Eigen::Vector3f& p_m, const Eigen::Vector3f& normal, float distance_m) {
-        if (std::fabs(distance_m) < kInlierM) {
-          ++evidence.inliers;
-          evidence.inlier_squares_m2 += static_cast<double>(distance_m * distance_m);
-        }
-        const float share = robust_share(distance_m, kernel_m);
-        const float weight = share * share;
-        const Eigen::Vector3f turning = p_m.cross(normal);
-        const float jacobian[6] = {normal.x(), normal.y(), normal.z(), turning.x(), turning.y(), turning.z()};
-        for (int i = 0; i < 6; ++i) {
-          const float weighted = weight * jacobian[i];
-          gradient[i] += distance_m * weighted;
-          for (int j = i; j < 6; ++j) hessian[i][j] += weighted * jacobian[j];
-        }
-        evidence.weight += static_cast<double>(weight);
-      });
+  for_each_match(T_ref_cur, reference, patches, [&](const Match& match) {
+    const float distance_m = match.distance_m;
+    if (std::fabs(distance_m) < kInlierM) {
+      ++evidence.inliers;
+      evidence.inlier_squares_m2 += static_cast<double>(distance_m * distance_m);
+    }
+    const float share = robust_share(distance_m, kernel_m);
+    const float weight = share * share;
+    const Eigen::Vector3f& normal = match.normal;
+    const Eigen::Vector3f turning = match.center_m.cross(normal);
+    const float jacobian[6] = {normal.x(), normal.y(), normal.z(), turning.x(), turning.y(), turning.z()};
+    for (int i = 0; i < 6; ++i) {
+      const float weighted = weight * jacobian[i];
+      gradient[i] += distance_m * weighted;
+      for (int j = i; j < 6; ++j) hessian[i][j] += weighted * jacobian[j];
+    }
+    evidence.weight += static_cast<double>(weight);
+  });
   const Eigen::Matrix<float, 6, 6> half =
       Eigen::Matrix<float, 6, 6>::Map(&hessian[0][0]);  // column by column
   evidence.hessian = half.selfadjointView<Eigen::Lower>().toDenseMatrix().cast<double>();
@@ -105,11 +119,10 @@ double mean_cost_m2(const Pose& T_ref_cur, const Reference& reference, std::span
                     float kernel_m, int least) {
   int matches = 0;
   float sum_m2 = 0;
-  for_each_match(T_ref_cur, reference, patches,
-                 [&](const SurfacePatch&, const Eigen::Vector3f&, const Eigen::Vector3f&, float distance_m) {
-                   ++matches;
-                   sum_m2 += distance_m * distance_m * robust_share(distance_m, kernel_m);
-                 });
+  for_each_match(T_ref_cur, reference, patches, [&](const Match& match) {
+    ++matches;
+    sum_m2 += match.distance_m * match.distance_m * robust_share(match.distance_m, kernel_m);
+  });
   if (matches == 0 || matches < least) return std::numeric_limits<double>::infinity();
   return static_cast<double>(sum_m2) / matches;
 }
@@ -154,9 +167,9 @@ enum class Start : std::uint8_t { near, far };
 
 template <class Reference>
 Registration register_from(const Pose& start_pose, Start start, const Reference& reference,
-                           std::span<const SurfacePatch> patches, const RegistrationSettings& settings) {
+                           std::span<const SurfacePatch> patches, const AlignmentSettings& settings) {
   const auto coarse =
-      patches.first(std::min(patches.size(), static_cast<std::size_t>(std::max(0, settings.coarse_patches))));
+      patches.first(std::min(patches.size(), static_cast<std::size_t>(settings.coarse_patches)));
   Pose pose = start_pose;
   const auto step_twice = [&](float kernel_m) {
     for (int i = 0; i < 2; ++i) pose = moved(solve(evidence_for(pose, reference, coarse, kernel_m)), pose);
@@ -192,7 +205,7 @@ Registration register_from(const Pose& start_pose, Start start, const Reference&
 // `patches`: any first part must be spread as the whole. Any guess gives a finite pose.
 template <class Reference>
 Registration align_patches(const Reference& reference, std::span<const SurfacePatch> patches,
-                           const std::optional<Pose>& guess, const RegistrationSettings& settings) {
+                           const std::optional<Pose>& guess, const AlignmentSettings& settings) {
   using patch_alignment::register_from, patch_alignment::Start;
   if (!guess || !guess->matrix().allFinite()) {
     return register_from(Pose::Identity(), Start::far, reference, patches, settings);

@@ -19,10 +19,10 @@ struct Evidence {
   double inlier_squares_m2 = 0;
 };
 
-// Where the patches leave a direction open, the pose stays as it is.
+// With a little of the weights' sum added, so that a direction that the patches leave open can be solved for.
 Matrix6 damped_hessian(const Evidence& evidence);
 
-// A damped step of Gauss and Newton.
+// A damped step of Gauss and Newton: where the patches leave a direction open, the pose stays as it is.
 Vector6 solve(const Evidence& evidence);
 
 Pose moved(const Vector6& step, const Pose& pose);

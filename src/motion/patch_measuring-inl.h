@@ -76,6 +76,8 @@ POINTREEL_INLINE Int8 columns_towards(const GridRays& grid, const Int8& row, con
   return gather(directions.column_of_bin.data(), truncated(where(counts, place)) & all_ints<8>(bins - 1));
 }
 
+inline constexpr float kFarthestM = 1e6F;
+
 // Where patches are: their points and normals.
 struct PatchLanes {
   Float8 x_m, y_m, z_m, normal_x, normal_y, normal_z;
@@ -113,7 +115,7 @@ class RowDistances {
     const Float8 cosine = gather(grid_.cos_azimuth().data(), column);
     const Float8 sine = gather(grid_.sin_azimuth().data(), column);
     const Float8 range_m = gather(grid_.ranges_m().data(), row_begin_ + column);
-    found = all<8>(0) < range_m;
+    found = (all<8>(0) < range_m) & (range_m < all<8>(kFarthestM));
     const Float8 along_ray = (ahead_ * cosine + beside_ * sine) + up_;
     const Float8 along_side = beside_ * cosine - ahead_ * sine;
     return plane_m_ - (range_m * cos_elevation_) * along_ray - side_offset_m_ * along_side;
@@ -141,15 +143,18 @@ struct MeanDistances {
     const Int8 turned = turned_by(first, middle);
     Float8 sum_m = all<8>(0), weights = all<8>(0);
     for (int down = -rows_beside; down <= rows_beside; ++down) {
-      const Int8 row = smaller(larger(middle + all_ints<8>(down), all_ints<8>(0)), last_row);
+      const Int8 row_there = middle + all_ints<8>(down);
+      const Int8 row = smaller(larger(row_there, all_ints<8>(0)), last_row);
+      const Float8 number = as_floats(row_there);
+      const Mask<8> inside = (all<8>(0) <= number) & (number <= as_floats(last_row));
       const Int8 same = in_turn(middle_column + turned - turned_by(first, row), columns);
       const RowDistances distances(grid, row, patch);
       for (int beside = -kHalfPatchColumns; beside <= kHalfPatchColumns; ++beside) {
         Mask<8> found;
         const Float8 distance_m = distances.to_column(in_turn(same + all_ints<8>(beside), columns), found);
         const Float8 share = all<8>(kNearM * kNearM) / (all<8>(kNearM * kNearM) + distance_m * distance_m);
-        const Float8 weight = where(found, share * share);
-        sum_m = sum_m + weight * distance_m;
+        const Float8 weight = where(found & inside, share * share);
+        sum_m = sum_m + where(found, weight * distance_m);
         weights = weights + weight;
       }
     }
@@ -159,7 +164,7 @@ struct MeanDistances {
 };
 
 inline void measure(const GridRays& grid, PatchBlock& block) {
-  constexpr float kNearestM = 0.1F, kFarthestM = 1e6F;
+  constexpr float kNearestM = 0.1F;
   for (std::size_t i = 0; i < block.count; i += 8) {
     const PatchLanes patch(block, i);
     const Float8 rho_m = square_root(patch.x_m * patch.x_m + patch.y_m * patch.y_m);

@@ -1,7 +1,7 @@
 // register_sweeps: the motion of the sensor between two sweeps, from their range images alone.
 //
 // Point-to-plane with projective association: patches of the current sweep's surfaces, moved by the pose so
-// far, are compared with what the reference has in the same direction. A few thousand patches; wide robust
+// far, are compared with what the reference has in the same direction. A thousand patches; wide robust
 // kernel first, narrow last. Any sensor with rows and columns will do. The result is the encoder's own: it
 // travels in the stream, so nothing here needs to give the same bits on every machine.
 #pragma once
@@ -13,15 +13,6 @@
 #include "pointreel/motion.h"
 
 namespace pointreel {
-
-struct RegistrationSettings {
-  int patches = 2400;        // of the last rounds
-  int coarse_patches = 500;  // of the rounds that find the way
-  int rounds = 5;            // at most, of the last ones
-};
-
-// Half the time; hardly worse where there is much to see.
-inline constexpr RegistrationSettings kQuickRegistration{1000, 400, 3};
 
 struct Registration {
   Pose T_ref_cur = Pose::Identity();  // the current sweep's coordinates to the reference's, as measured
@@ -40,13 +31,11 @@ struct Registration {
 // or that of a pose file. Without a good one displacements up to about 3 m and 5 degrees are found. Any grids
 // and any guess give a finite pose. `motion_per_turn`: SweepMotion::per_turn.
 Registration register_sweeps(const GridRays& reference, const GridRays& current,
-                             const std::optional<Pose>& guess = {}, const RegistrationSettings& settings = {},
-                             double motion_per_turn = 0);
+                             const std::optional<Pose>& guess = {}, double motion_per_turn = 0);
 
 inline Registration register_sweeps(const RangeGrid& reference, const RangeGrid& current,
-                                    const std::optional<Pose>& guess = {},
-                                    const RegistrationSettings& settings = {}, double motion_per_turn = 0) {
-  return register_sweeps(GridRays(reference), GridRays(current), guess, settings, motion_per_turn);
+                                    const std::optional<Pose>& guess = {}, double motion_per_turn = 0) {
+  return register_sweeps(GridRays(reference), GridRays(current), guess, motion_per_turn);
 }
 
 }  // namespace pointreel

@@ -69,8 +69,7 @@ Support support_of(const Pose& pose, const PlanesByDirection& planes, std::span<
     moved_pose.translation() += step * kStepM * direction;
     int inliers = 0;
     for_each_match(moved_pose, planes, std::span<const SurfacePatch>(across),
-                   [&](const SurfacePatch&, const Eigen::Vector3f&, const Eigen::Vector3f&,
-                       float distance_m) { inliers += std::fabs(distance_m) < kInlierM ? 1 : 0; });
+                   [&](const Match& match) { inliers += std::fabs(match.distance_m) < kInlierM ? 1 : 0; });
     if (step == 0) support.here = inliers;
     if (std::abs(step) <= kStillHere || inliers <= support.elsewhere) continue;
     support.elsewhere = inliers;
@@ -94,10 +93,11 @@ void refine(const PlanesByDirection& planes, std::span<const SurfacePatch> patch
 
 Result<PlaneRegistration> register_planes(const SweepPlanes& reference, const SweepPlanes& current,
                                           const std::optional<Pose>& guess) {
-  constexpr RegistrationSettings kSettings{1200, 400, 5};
+  constexpr int kPatches = 1200;
+  constexpr AlignmentSettings kSettings{.coarse_patches = 400, .rounds = 5};
   constexpr int kLeastSupport = 12;
   const PlanesByDirection planes(reference);
-  const auto patches = patches_of(current, kSettings.patches);
+  const auto patches = patches_of(current, kPatches);
   Registration found = align_patches(planes, patches, guess, kSettings);
   Support support;
   if (found.converged) {

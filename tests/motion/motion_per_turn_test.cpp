@@ -5,7 +5,7 @@
 
 #include <cmath>
 #include <numbers>
-#include <optional>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -24,55 +24,84 @@ std::vector<Pillar> avenue() {
   return pillars;
 }
 
-// Sweep `i` of a sensor that drives ahead, `per_turn` of the motion a turn counterclockwise, from behind to
-// behind.
-SceneView sweep_on_the_way(int i, double per_turn) {
-  const auto pose_at = [&](double azimuth_rad) {
-    const double turns = std::remainder(azimuth_rad / (2 * std::numbers::pi), 1);
-    return pose_of(kMotionM * (i + per_turn * turns), 0, 0, 0);
-  };
-  return view_along(tunnel(), pose_at, avenue());
-}
-
-struct WayBehind {
-  MotionPerTurn per_turn;
-  Pose last = Pose::Identity();
+// What a sensor does from sweep to sweep, `per_turn` of it a turn counterclockwise.
+struct Way {
+  double per_turn, yaw_deg = 0;
+  int rows = 32;
 };
 
-WayBehind drive(double per_turn, int sweeps) {
-  WayBehind drive;
-  SceneView before = sweep_on_the_way(0, per_turn);
-  drive.last = pose_of(kMotionM, 0, 0, 0);
+// Where it is after a number of sweeps, along an arc.
+Pose pose_on(const Way& way, double sweeps) {
+  const double yaw_rad = way.yaw_deg * std::numbers::pi / 180, turned_rad = sweeps * yaw_rad;
+  if (yaw_rad == 0) return pose_of(kMotionM * sweeps, 0, 0, 0);
+  const double radius_m = kMotionM / yaw_rad;
+  return pose_of(radius_m * std::sin(turned_rad), radius_m * (1 - std::cos(turned_rad)), 0,
+                 sweeps * way.yaw_deg);
+}
+
+// Each sweep begins and ends behind the sensor.
+SceneView sweep_on(const Way& way, int i) {
+  const auto pose_at = [&](double azimuth_rad) {
+    return pose_on(way, i + way.per_turn * std::remainder(azimuth_rad / (2 * std::numbers::pi), 1));
+  };
+  return view_along(tunnel(), pose_at, avenue(), way.rows);
+}
+
+struct Follower {
+  MotionPerTurn per_turn;
+  Pose last;
+};
+
+Follower follow(const Way& way, int sweeps) {
+  Follower follower{{}, pose_on(way, 1)};
+  SceneView before = sweep_on(way, 0);
   for (int i = 1; i < sweeps; ++i) {
-    SceneView now = sweep_on_the_way(i, per_turn);
+    SceneView now = sweep_on(way, i);
     const Registration found =
-        register_sweeps(before.grid(), now.grid(), drive.last, {}, drive.per_turn.value());
+        register_sweeps(before.grid(), now.grid(), follower.last, follower.per_turn.value());
     EXPECT_TRUE(found.converged);
-    drive.per_turn.learn(found.turning);
-    drive.last = found.T_ref_cur;
+    follower.per_turn.learn(found.turning);
+    follower.last = found.T_ref_cur;
     before = std::move(now);
   }
-  return drive;
+  return follower;
 }
 
 TEST(MotionPerTurn, IsLearntFromSweepsOnTheWay) {
-  // Either way round; every second sweep; a sensor that sees all at once.
-  for (const double per_turn : {1.0, -1.0, 0.5, -0.5, 0.0}) {
-    const WayBehind found = drive(per_turn, 12);
-    EXPECT_NEAR(found.per_turn.value(), per_turn, 0.15) << per_turn;
-    EXPECT_NEAR(found.last.translation().x(), kMotionM, 0.01) << per_turn;
-    EXPECT_NEAR(found.last.translation().y(), 0, 0.003) << per_turn;
+  // Either way round; every second sweep; a sensor that sees all at once; many rows.
+  for (const Way& way : {Way{1}, Way{-1}, Way{0.5}, Way{-0.5}, Way{0}, Way{1, 0, 64}, Way{-1, 0, 64}}) {
+    const Follower follower = follow(way, 12);
+    EXPECT_NEAR(follower.per_turn.value(), way.per_turn, 0.15) << way.per_turn << ", " << way.rows << " rows";
+    EXPECT_NEAR(follower.last.translation().x(), kMotionM, 0.01) << way.per_turn << ", " << way.rows;
+    EXPECT_NEAR(follower.last.translation().y(), 0, 0.003) << way.per_turn << ", " << way.rows;
   }
 }
 
-TEST(MotionPerTurn, SaysNothingAtRest) {
-  const SceneView view = view_of(hall(), Pose::Identity());
-  const Registration found = register_sweeps(view.grid(), view.grid());
-  ASSERT_TRUE(found.converged);
-  EXPECT_LT(found.turning.weight, 1e-6);
-  MotionPerTurn per_turn;
-  per_turn.learn(found.turning);
-  EXPECT_NEAR(per_turn.value(), 0, 1e-3);
+TEST(MotionPerTurn, IsLearntInACurve) {
+  for (const Way& way : {Way{1, 2}, Way{-1, 2}, Way{1, -2}, Way{-1, -2}}) {
+    const Follower follower = follow(way, 8);
+    EXPECT_GT(follower.per_turn.value() * way.per_turn, 0.7) << way.per_turn << ", " << way.yaw_deg;
+  }
+}
+
+TEST(MotionPerTurn, IsKeptAtRest) {
+  std::mt19937 random(1);
+  std::normal_distribution<float> noise_m(0, 0.02F);
+  const auto noisy_view = [&] {
+    SceneView view = view_of(tunnel(), Pose::Identity(), avenue());
+    for (float& range_m : view.range_m) range_m += range_m > 0 ? noise_m(random) : 0;
+    return view;
+  };
+  MotionPerTurn per_turn = follow({-1}, 8).per_turn;
+  const double driving = per_turn.value();
+  for (int i = 0; i < 20; ++i) {
+    const Registration found =
+        register_sweeps(noisy_view().grid(), noisy_view().grid(), Pose::Identity(), per_turn.value());
+    ASSERT_TRUE(found.converged);
+    // As many sweeps as in ten seconds.
+    for (int sweep = 0; sweep < 100; ++sweep) per_turn.learn(found.turning);
+    EXPECT_NEAR(per_turn.value(), driving, 0.05) << i;
+  }
 }
 
 TEST(MotionPerTurn, StaysWithinAllOfTheMotionWhateverItIsTold) {

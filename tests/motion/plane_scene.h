@@ -1,4 +1,4 @@
-// A scene of planes and pillars, and what a spinning sensor with 32 rows sees of it, at rest or on its way.
+// A scene of planes and pillars, and what a spinning sensor sees of it, at rest or on its way.
 #pragma once
 
 #include <cmath>
@@ -41,14 +41,14 @@ struct SceneView {
 // `T_world_sensor(azimuth_rad)`: where the sensor is when it looks there.
 template <class PoseAt>
 SceneView view_along(const std::vector<Plane>& scene, const PoseAt& T_world_sensor,
-                     const std::vector<Pillar>& pillars = {}) {
-  constexpr int kRows = 32, kColumns = 900;
+                     const std::vector<Pillar>& pillars = {}, int rows = 32) {
+  constexpr int kColumns = 900;
   constexpr double kFarthestM = 120;
   SceneView view;
-  for (int r = 0; r < kRows; ++r) {
+  for (int r = 0; r < rows; ++r) {
     // Offsets and turned rows, as real sensors have them.
-    view.rows.push_back({std::tan((10.0 - r) * std::numbers::pi / 180), r % 2 == 0 ? 0.2 : 0.1, 0.1 * (r % 4),
-                         r % 2 == 0 ? 0.02 : -0.02});
+    view.rows.push_back({std::tan((10.0 - 32.0 / rows * r) * std::numbers::pi / 180), r % 2 == 0 ? 0.2 : 0.1,
+                         0.1 * (r % 4), r % 2 == 0 ? 0.02 : -0.02});
   }
   for (int c = 0; c < kColumns; ++c) view.column_azimuth_rad.push_back(2 * std::numbers::pi * c / kColumns);
   for (const GridRow& row : view.rows) {
@@ -78,9 +78,9 @@ SceneView view_along(const std::vector<Plane>& scene, const PoseAt& T_world_sens
 }
 
 inline SceneView view_of(const std::vector<Plane>& scene, const Pose& T_world_sensor,
-                         const std::vector<Pillar>& pillars = {}) {
+                         const std::vector<Pillar>& pillars = {}, int rows = 32) {
   return view_along(
-      scene, [&](double) { return T_world_sensor; }, pillars);
+      scene, [&](double) { return T_world_sensor; }, pillars, rows);
 }
 
 inline std::vector<Plane> ground() {

@@ -108,13 +108,16 @@ TEST(Warp, GoesByTheTimeAtWhichAPlaceIsSeen) {
                      off_m.end());
     return off_m.at(off_m.size() / 2);
   };
-  for (const double per_turn : {1.0, -1.0, 0.5}) {
+  for (const auto& [per_turn, yaw_rad] :
+       {std::pair{1.0, 0.0}, {-1.0, 0.0}, {0.5, 0.0}, {1.0, 0.1}, {-1.0, 0.1}}) {
     const ReferenceSweep reference{
         reference_grid, room_from(model, reference_grid, 0, 0, 0, per_turn * kMotionM), {}};
-    const GridImage now = room_from(model, grid, kMotionM, 0, 0, per_turn * kMotionM);
-    const Pose motion = moved(kMotionM, 0, 0);
-    EXPECT_LT(median_off_m(warp(model, grid, reference, motion, 1, per_turn), now), 0.002F) << per_turn;
-    EXPECT_GT(median_off_m(warp(model, grid, reference, motion, 1), now), 0.005F) << per_turn;
+    const GridImage now = room_from(model, grid, kMotionM, 0, yaw_rad, per_turn * kMotionM);
+    const Pose motion = moved(kMotionM, 0, yaw_rad);
+    EXPECT_LT(median_off_m(warp(model, grid, reference, motion, 1, per_turn), now), 0.003F)
+        << per_turn << ", " << yaw_rad;
+    EXPECT_GT(median_off_m(warp(model, grid, reference, motion, 1), now), 0.005F)
+        << per_turn << ", " << yaw_rad;
   }
 }
 
@@ -199,8 +202,10 @@ TEST(Warp, StaysFiniteForAnyMotionAndAnyGrid) {
     const GridImage image{5, static_cast<int>(columns), std::vector<float>(5 * columns, 4.0F)};
     const ReferenceSweep reference{grid, image, {}};
     for (const double far_m : {0.0, 4.0, 1e6, 1e30, static_cast<double>(std::numeric_limits<float>::max())}) {
-      const ReferenceImage warped = warp(model, grid, reference, moved(far_m, -far_m, kPi), 1, -1);
-      for (const float range_m : warped.range_m) ASSERT_TRUE(std::isfinite(range_m) && range_m >= 0);
+      for (const double per_turn : {-1.0, 0.0, 1.0}) {
+        const ReferenceImage warped = warp(model, grid, reference, moved(far_m, -far_m, kPi), 1, per_turn);
+        for (const float range_m : warped.range_m) ASSERT_TRUE(std::isfinite(range_m) && range_m >= 0);
+      }
     }
   }
 }
