@@ -23,8 +23,7 @@ class SweepAlignment {
   // motion compensation; none when it `is_key`, or when the two cannot be registered. Given poses are where
   // the search begins, else the motion before.
   //
-  // Sweeps are registered as measured: coarse steps of range bend the ground the same way in every sweep,
-  // which looks like standing still (docs/REGISTRATION.md).
+  // Sweeps are registered as measured, which is a little better than as decoded (docs/REGISTRATION.md).
   std::optional<SweepMotion> follow(const SensorModel& model, const SweepGrid& grid,
                                     std::span<const float> range_of_cell_m,
                                     const std::optional<Pose>& T_world_sensor, bool is_key) {

@@ -26,10 +26,10 @@ struct Registration {
   TurnEvidence turning;  // for MotionPerTurn
 };
 
-// Both sweeps uncompensated, as measured; best before coding, since coarse steps of range bend the ground
-// alike in every sweep. `guess`: a pose that may be near, such as the last motion of a vehicle that goes on,
-// or that of a pose file. Without a good one displacements up to about 3 m and 5 degrees are found. Any grids
-// and any guess give a finite pose. `motion_per_turn`: SweepMotion::per_turn.
+// Both sweeps uncompensated, as measured; a little better before coding than after. `guess`: a pose that may
+// be near, such as the last motion of a vehicle that goes on, or that of a pose file. Without a good one
+// displacements up to about 3 m and 5 degrees are found. Any grids and any guess give a finite pose.
+// `motion_per_turn`: SweepMotion::per_turn.
 Registration register_sweeps(const GridRays& reference, const GridRays& current,
                              const std::optional<Pose>& guess = {}, double motion_per_turn = 0);
 
