@@ -5,8 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "codec/measured_grid.h"
-#include "motion/registration.h"
+#include "codec/sweep_alignment.h"
 #include "pointreel/io.h"
 #include "predict/coding_grid.h"
 #include "predict/warp.h"
@@ -41,41 +40,18 @@ SensorModel model_of(const std::vector<PointCloud>& clouds, const std::filesyste
   return *estimator.model();
 }
 
-std::optional<SweepMotion> registered(const SensorModel& model, const GriddedSweep& previous,
-                                      const GriddedSweep& sweep, const std::optional<SweepMotion>& last,
-                                      MotionPerTurn& per_turn) {
-  const MeasuredGrid reference(model, previous.grid), current(model, sweep.grid);
-  const auto reference_m = ranges_by_cell(previous), current_m = ranges_by_cell(sweep);
-  const auto guess = last ? std::optional(last->T_ref_cur) : std::nullopt;
-  const double motion_per_turn = per_turn.value();
-  const Registration registration =
-      register_sweeps(reference.with(reference_m), current.with(current_m), guess, motion_per_turn);
-  if (!registration.converged) return std::nullopt;
-  per_turn.learn(registration.turning);
-  return SweepMotion{registration.T_ref_cur, motion_per_turn};
-}
-
 TrainingDrive drive_of(const Folder& files) {
   std::vector<PointCloud> clouds;
   for (const auto& path : files) clouds.push_back(require(read_cloud(path)));
   TrainingDrive drive{model_of(clouds, files.front()), {}};
-  GriddedSweep previous;
-  std::optional<SweepMotion> motion;
-  MotionPerTurn per_turn;
+  SweepAlignment alignment(true);
   for (const PointCloud& cloud : clouds) {
-    GriddedSweep sweep = project(drive.model, cloud);
-    const CodingGrid grid(drive.model, sweep.grid);
-    TrainingSweep training{grid.empty_image(), sweep.grid, {}};
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-      if (sweep.cell_of_point[i] >= 0) {
-        training.image.range_m[grid.image_index(static_cast<std::size_t>(sweep.cell_of_point[i]))] =
-            sweep.range_m[i];
-      }
-    }
-    if (!drive.sweeps.empty()) motion = registered(drive.model, previous, sweep, motion, per_turn);
-    training.motion = motion;
-    drive.sweeps.push_back(std::move(training));
-    previous = std::move(sweep);
+    const GriddedSweep sweep = project(drive.model, cloud);
+    const auto range_of_cell_m = ranges_by_cell(sweep);
+    const bool is_first = drive.sweeps.empty();
+    drive.sweeps.push_back(
+        {CodingGrid(drive.model, sweep.grid).image_of(range_of_cell_m, 1), sweep.grid,
+         alignment.follow(drive.model, sweep.grid, range_of_cell_m, std::nullopt, is_first)});
   }
   return drive;
 }

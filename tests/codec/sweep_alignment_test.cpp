@@ -5,22 +5,17 @@
 #include <optional>
 #include <vector>
 
-#include "pointreel/simulator.h"
 #include "sensor/point_order.h"
 #include "sensor/projection.h"
 #include "sensor/sensor_estimator.h"
+#include "support/clouds.h"
 
 namespace pointreel {
 namespace {
 
-// Of a car at speed, whose sensor turns counterclockwise.
+// Of a sensor that turns counterclockwise.
 std::vector<PointCloud> sweeps_at_speed(int count) {
-  constexpr int kPullingAway = 60;
-  SimulatorOptions options;
-  options.sensor = SensorKind::vlp_16;
-  options.cruise_speed_mps = 15;
-  Simulator simulator(options);
-  for (int i = 0; i < kPullingAway; ++i) static_cast<void>(simulator.next_sweep());
+  Simulator simulator = simulator_at_speed(SensorKind::vlp_16);
   std::vector<PointCloud> sweeps;
   for (int i = 0; i < count; ++i) sweeps.push_back(simulator.next_sweep().cloud);
   return sweeps;

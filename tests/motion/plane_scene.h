@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <random>
 #include <vector>
 
 #include "motion/range_grid.h"
@@ -78,9 +79,16 @@ SceneView view_along(const std::vector<Plane>& scene, const PoseAt& T_world_sens
 }
 
 inline SceneView view_of(const std::vector<Plane>& scene, const Pose& T_world_sensor,
-                         const std::vector<Pillar>& pillars = {}, int rows = 32) {
+                         const std::vector<Pillar>& pillars = {}) {
   return view_along(
-      scene, [&](double) { return T_world_sensor; }, pillars, rows);
+      scene, [&](double) { return T_world_sensor; }, pillars);
+}
+
+// Each return off by some 2 cm.
+inline SceneView noisy(SceneView view, std::mt19937& random) {
+  std::normal_distribution<float> noise_m(0, 0.02F);
+  for (float& range_m : view.range_m) range_m += range_m > 0 ? noise_m(random) : 0;
+  return view;
 }
 
 inline std::vector<Plane> ground() {

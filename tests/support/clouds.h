@@ -36,6 +36,17 @@ inline PointCloud random_sphere(std::size_t count, float range_m, std::uint32_t 
   return cloud;
 }
 
+// Of a car that has pulled away and does 15 m/s.
+inline Simulator simulator_at_speed(SensorKind sensor) {
+  constexpr int kPullingAway = 60;
+  SimulatorOptions options;
+  options.sensor = sensor;
+  options.cruise_speed_mps = 15;
+  Simulator simulator(options);
+  for (int i = 0; i < kPullingAway; ++i) static_cast<void>(simulator.next_sweep());
+  return simulator;
+}
+
 struct NamedCloud {
   std::string name;
   PointCloud cloud;
